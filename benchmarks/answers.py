@@ -274,7 +274,7 @@ def cycle_onset(tol: float, _: float) -> tuple[Values, float]:
     began = clock.thread_time()
     start = SEPARATING.replace(Omega=FOLD_FROM)
     folds = continue_cycle(start, "Omega", FOLD_BETWEEN, direction=1, tol=tol).folds
-    speed = float(folds[0, 0]) if len(folds) else math.nan
+    speed = float(folds[0]) if len(folds) else math.nan
     return {"onset": speed}, clock.thread_time() - began
 
 

@@ -134,25 +134,16 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
     (
         dm.continue_cycle,
         {"case": P, "name": "Omega", "bounds": (10.0, 30.0)},
-        {"guess": "None", "values": "nothing", "stop_at": "None", "progress": "True"},
-    ),
-    (
-        dm.StepControl,
-        {},
         {
-            "growth": WRONG,
-            "easy": WRONG,
-            "sharpest": WRONG,
-            "scale": "None",
-            "max_points": "huge",
-            "beyond": "True",
+            "guess": "None",
+            "direction": "True",
+            "values": "nothing",
+            "stop_at": "None nothing",
+            "progress": "True",
         },
     ),
-    (
-        dm.critical,
-        {"case": P, "name": "N", "bounds": (1, 2), "points": 2},
-        {"precision": "None huge", "progress": "True"},
-    ),
+    (dm.StepControl, {}, {"max_points": "huge", "beyond": "True"}),
+    (dm.critical, {"case": P, "name": "N", "bounds": (1, 2), "points": 2}, {"progress": "True"}),
     (dm.neutral_curves, PLANE, {"max_points": "huge", "lines": "nothing"}),
     (
         dm.lyapunov_exponents,

@@ -3,12 +3,24 @@
 from __future__ import annotations
 
 import functools
+import inspect
 import json
 import numbers
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Self, TypeGuard, get_args
+from typing import (
+    TYPE_CHECKING,
+    Annotated,
+    Any,
+    ClassVar,
+    ParamSpec,
+    Self,
+    TypeGuard,
+    TypeVar,
+    get_args,
+    get_type_hints,
+)
 
 from pydantic import (
     AfterValidator,
@@ -17,6 +29,7 @@ from pydantic import (
     ConfigDict,
     Field,
     ValidationError,
+    create_model,
     model_validator,
 )
 
@@ -309,3 +322,45 @@ class Strict(BaseModel):
     def replace(self, **changes: Any) -> Self:
         """A validated copy with some values changed."""
         return type(self)(**{**dict(self), **changes})
+
+
+# ---- Arguments of functions
+
+P = ParamSpec("P")
+T = TypeVar("T")
+
+
+def checked(function: Callable[P, T]) -> Callable[P, T]:
+    """A function of a case whose other arguments are read by their types, as the fields of a `Strict`
+    model are: numbers with units become those of SI, and wrong ones raise a `ParameterError`.
+
+    Examples
+    --------
+    >>> from disc_model import Parameters
+    >>> from disc_model.units import Seconds, checked
+    >>> @checked
+    ... def later(case: Parameters, time: Seconds) -> float:
+    ...     return 2 * time
+    >>> later(Parameters(N=385, Omega=15), "3 ms")
+    0.006
+    """
+    signature = inspect.signature(function)
+    hints = get_type_hints(function, include_extras=True)
+    first, *others = signature.parameters.values()
+    fields: dict[str, Any] = {
+        each.name: (hints[each.name], ... if each.default is each.empty else each.default)
+        for each in others
+    }
+    model = create_model(function.__name__, __base__=Strict, **fields)
+
+    @functools.wraps(function)
+    def call(*args: P.args, **given: P.kwargs) -> T:
+        asked = signature.bind(*args, **given).arguments
+        case = asked.pop(first.name)
+        kind = hints[first.name]
+        if not isinstance(case, kind):
+            raise ParameterError(Fault.of((first.name,), case, f"must be {kind.__name__}"))
+        read = dict(model(**asked))
+        return function(case, **read)  # type: ignore[call-arg, arg-type]
+
+    return call

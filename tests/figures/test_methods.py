@@ -75,7 +75,7 @@ def exponents() -> Any:
 
 @functools.cache
 def critical() -> Any:
-    return dm.critical(WEAKER, "mu_s", (0.3, 0.42), points=7, precision=1e-3)
+    return dm.critical(WEAKER, "mu_s", (0.3, 0.42), points=7)
 
 
 @functools.cache
@@ -243,7 +243,7 @@ def neutral() -> Picture:
 def periods() -> Picture:
     [fold] = [point for point in branch().special if point.kind == "fold"]
     shown = (
-        Shown(0, "x", SPEED, [*branch().values[:, 0], fold.values[0]], "rad/s"),
+        Shown(0, "x", SPEED, [*branch().values, fold.value], "rad/s"),
         Shown(0, "y", "Period of the cycle", [*branch().period, fold.period], "s"),
     )
     return Picture(functools.partial(branch().plot, "period"), shown)
@@ -378,7 +378,7 @@ def test_a_branch_is_thick_where_it_is_stable_up_to_its_fold() -> None:
     ax = branch().plot()
     [thick] = [drawn for drawn in ax.lines if drawn.get_label() == "thick: stable"]
     places = thick.get_xdata()
-    assert [places[0], places[np.isfinite(places)].max()] == [14.8, branch().folds[0, 0]]
+    assert [places[0], places[np.isfinite(places)].max()] == [14.8, branch().folds[0]]
     assert {"thick: stable", "fold"} <= {*entries(ax)}
 
 
@@ -386,7 +386,7 @@ def test_a_special_point_is_marked_in_the_units_of_both_axes() -> None:
     [fold] = [point for point in branch().special if point.kind == "fold"]
     ax = branch().plot("period", units={"Omega": "rpm"})
     [mark] = [drawn for drawn in ax.lines if drawn.get_label() == "fold"]
-    assert mark.get_xdata() == pytest.approx([fold.values[0] * 30 / np.pi], rel=1e-12)
+    assert mark.get_xdata() == pytest.approx([fold.value * 30 / np.pi], rel=1e-12)
     assert mark.get_ydata() == pytest.approx([1e3 * fold.period], rel=1e-12)
 
 

@@ -7,12 +7,11 @@ from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
-import pandas as pd
 import pytest
 import yaml
 from scipy.stats import qmc
 
-from disc_model.analysis.classify import SLOWEST, Settled, Settling
+from disc_model.analysis.classify import Motion, Settled, Settling
 from disc_model.data.variables import Outcome
 from disc_model.disc.plate import mode_arrays
 from disc_model.engine.record import EVENT_ROW, LOSS_OF_CONTACT, STICK_TO_SLIP
@@ -201,6 +200,23 @@ def stretch(**changes: float) -> Segment:
     return replace(segment, **changes)
 
 
+def legs_with(losses: Any, releases: Any = (), end: float = 100.0) -> list[Any]:
+    """A record of 100 s in two legs, with losses of contact and releases at some times (s)."""
+    times = np.concatenate([losses, releases])
+    rows = np.zeros((times.size, len(EVENT_ROW)))
+    rows[:, EVENT_ROW.index("time")] = times
+    rows[:, EVENT_ROW.index("kind")] = [LOSS_OF_CONTACT] * len(losses) + [STICK_TO_SLIP] * len(
+        releases
+    )
+    rows = rows[np.argsort(times)]
+    cut = np.searchsorted(rows[:, EVENT_ROW.index("time")], 70.0)
+    parts = [(rows[:cut], 70.0), (rows[cut:], end)]
+    return [
+        SimpleNamespace(event_rows=part, final_state=SimpleNamespace(time=stop))
+        for part, stop in parts
+    ]
+
+
 # ------------------------------------------------------------------------ Comparison of attractors
 
 
@@ -222,29 +238,23 @@ def test_a_motion_that_does_not_repeat_is_named_by_its_largest_exponent(
 ) -> None:
     """Intervals of the golden rotation never repeat; those of releases do, every 10 ms."""
     count = 60
+    even = 0.01 * np.arange(1, count + 1)
     uneven = np.cumsum(0.01 + 1e-3 * np.cos(2 * np.pi * 0.6180339887 * np.arange(count)))
-    word = "stick_to_slip"
-    if separates:
-        word = "separation"
-    rows = [(time, word) for time in uneven]
-    if separates:
-        rows += [(0.01 * (i + 1), "stick_to_slip") for i in range(count)]
-    events = pd.DataFrame(sorted(rows), columns=["time", "kind"])
-    run = SimpleNamespace(events=events, status=Status.OK)
     found = SimpleNamespace(exponents=np.array([rate]), errors=np.array([error]))
-    monkeypatch.setattr(attractors, "simulate", lambda *_, **__: run)
     monkeypatch.setattr(attractors, "lyapunov_exponents", lambda *_, **__: found)
-    motion = attractors.regularity(P14, static_start(P14), 1e-10)
+
+    def regularity(times: Any) -> Motion:
+        [run, _] = legs_with(times, even) if separates else legs_with([], times)
+        run.status = Status.OK
+        monkeypatch.setattr(attractors, "simulate", lambda *_, **__: run)
+        return attractors.regularity(P14, static_start(P14), 1e-10)
+
+    motion = regularity(uneven)
     assert motion.kind == kind
     assert motion.period == 0
-
     # a period shows without exponents
-    alike = events[events["kind"] == word]
-    run.events = alike.assign(time=0.01 * np.arange(1, count + 1))
-    motion = attractors.regularity(P14, static_start(P14), 1e-10)
-    assert motion.period > 0
-    run.events = events.head(10)
-    assert attractors.regularity(P14, static_start(P14), 1e-10).kind is Outcome.UNDECIDED
+    assert regularity(even).period > 0
+    assert regularity(even[:10]).kind is Outcome.UNDECIDED
 
 
 # ------------------------------------------------------------------------ Sweeps
@@ -293,55 +303,32 @@ def test_a_stay_is_doubled_until_it_has_settled_and_no_further(
 
 
 # ------------------------------------------------------------------------ Motions without stick
-def legs_with(losses: Any, releases: Any = (), end: float = 100.0) -> list[Any]:
-    """A record of 100 s in two legs, with losses of contact and releases at some times (s)."""
-    times = np.concatenate([losses, releases])
-    rows = np.zeros((times.size, len(EVENT_ROW)))
-    rows[:, EVENT_ROW.index("time")] = times
-    rows[:, EVENT_ROW.index("kind")] = [LOSS_OF_CONTACT] * len(losses) + [STICK_TO_SLIP] * len(
-        releases
-    )
-    rows = rows[np.argsort(times)]
-    cut = np.searchsorted(rows[:, EVENT_ROW.index("time")], 70.0)
-    parts = [(rows[:cut], 70.0), (rows[cut:], end)]
-    return [
-        SimpleNamespace(event_rows=part, final_state=SimpleNamespace(time=stop))
-        for part, stop in parts
-    ]
-
-
-REGULAR_LOSSES = np.arange(5, 99.995, 0.01)
-
-
-def test_a_motion_that_never_sticks_has_settled_if_its_losses_of_contact_repeat() -> None:
-    """Every second interval is longer; before the last 40 s the motion differs, and sticks."""
-    losses = REGULAR_LOSSES.copy()
-    losses[1::2] += 1e-3
-    losses[:3000] += np.geomspace(1e-3, 1e-9, 3000)
-    found = attractors.repetition_in_slip(legs_with(losses, releases=[20.0, 59.0]))
-    assert found is not None
-    assert found.answer is Settled.SETTLED
-    assert found.since == 60.0
-    # 1e-8 s of a thousandth of 0.01 s, in 40 s
-    assert found.least == pytest.approx(1e-8 / 1e-5 / 40, rel=1e-6)
-    assert found.least < SLOWEST
+EVEN = np.arange(5, 99.995, 0.01)
+UNEVEN = EVEN + np.where(np.arange(EVEN.size) % 2, 1e-3, 0.0)
+UNEVEN[:3000] += np.geomspace(1e-3, 1e-9, 3000)  # a transient, up to the last 40 s
 
 
 @pytest.mark.parametrize(
-    "legs",
+    ("legs", "repeats"),
     [
-        legs_with(REGULAR_LOSSES + 1e-5 * np.sin(REGULAR_LOSSES)),  # a beat
-        legs_with(REGULAR_LOSSES + 2e-8 * REGULAR_LOSSES**2),  # a drift of 4e-12 s each time
-        legs_with(REGULAR_LOSSES, releases=[61.0]),
-        legs_with(REGULAR_LOSSES[REGULAR_LOSSES > 65]),  # since too short a time
-        legs_with(REGULAR_LOSSES[REGULAR_LOSSES < 90]),  # it has ceased
-        legs_with([]),
+        (legs_with(UNEVEN, releases=[20.0, 59.0]), True),
+        (legs_with(EVEN + 1e-5 * np.sin(EVEN)), False),  # a beat
+        (legs_with(EVEN + 2e-8 * EVEN**2), False),  # a drift of 4e-12 s each time
+        (legs_with(EVEN, releases=[61.0]), False),
+        (legs_with(EVEN[EVEN > 65]), False),  # since too short a time
+        (legs_with(EVEN[EVEN < 90]), False),  # it has ceased
+        (legs_with([]), False),
     ],
 )
-def test_a_record_of_losses_of_contact_that_do_not_repeat_to_its_end_decides_nothing(
-    legs: list[Any],
+def test_a_motion_that_never_sticks_has_settled_if_its_losses_of_contact_repeat(
+    legs: list[Any], repeats: bool
 ) -> None:
-    assert attractors.repetition_in_slip(legs) is None
+    found = attractors.settling_of(legs)
+    assert (found.answer is Settled.SETTLED) == repeats
+    if repeats:
+        assert found.since == 60.0
+        # 1e-8 s of a thousandth of 0.01 s, in 40 s
+        assert found.least == pytest.approx(1e-8 / 1e-5 / 40, rel=1e-6)
 
 
 @pytest.mark.compiled
@@ -350,16 +337,15 @@ def test_a_motion_that_slips_and_loses_contact_repeats_after_a_transient() -> No
     after 240 s, nor at any later time."""
     p = Parameters(N=350, Omega=24)
     rest = static_start(p)
-    start = perturb(p, rest, u=-3 * abs(rest.u))
-    early = simulate(p, 60, tol=1e-8, initial_state=start)
-    late = simulate(p, 240, tol=1e-8, initial_state=early.final_state)
-    later = simulate(p, 600, tol=1e-8, initial_state=late.final_state)
-    assert attractors.repetition_in_slip([early]) is None
-    for run in (late, later):
+    state = perturb(p, rest, u=-3 * abs(rest.u))
+    for end, settled in ((60, False), (240, True), (600, True)):
+        run = simulate(p, end, tol=1e-8, initial_state=state)
+        state = run.final_state
         reached = attractors.arrival(p, [run])
-        assert reached.settled
         assert reached.near is None
-        assert reached.settling.since == pytest.approx(run.final_state.time - 40)
+        assert reached.settled is settled
+        if settled:
+            assert reached.settling.since == pytest.approx(end - 40)
 
 
 # ------------------------------------------------------------------------ Cycles and perturbations

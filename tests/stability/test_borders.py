@@ -102,12 +102,8 @@ def test_a_branch_that_ends_elsewhere_is_told() -> None:
 @pytest.mark.parametrize(
     ("bounds", "lines", "told"),
     [
-        (
-            {"Omega": (16, 15), "N": (1, 2)},
-            [1.5],
-            "^bounds=.*: must be two ascending finite numbers",
-        ),
-        ({"Omega": (15, 16)}, [1.5], "^bounds=.*: must be two ascending finite numbers"),
+        ({"Omega": (16, 15), "N": (1, 2)}, [1.5], "^bounds=.*: must be two ascending numbers"),
+        ({"Omega": (15, 16)}, [1.5], "^bounds=.*: must"),
         ({"Omega": (14, 15), "mu_s": (0.38, 0.42)}, [0.4, 0.5], r"lines=\[0.5\]: must lie within"),
     ],
 )

@@ -82,8 +82,8 @@ def test_the_critical_speed_of_sliding_is_where_its_growth_rate_is_zero() -> Non
     def rate(speed: float) -> float:
         return dm.steady_sliding(case.replace(Omega=speed)).growth_rate
 
-    found = dm.critical(case, "Omega", (20, 80), points=7, precision=1e-4, kind="sliding")
-    assert found.value == found.border == pytest.approx(brentq(rate, 20, 80), abs=1e-4)
+    found = dm.critical(case, "Omega", (20, 80), points=7, kind="sliding")
+    assert found.value == found.border == pytest.approx(brentq(rate, 20, 80), abs=6e-5)
     assert rate(found.value) > 0 > rate(found.value - 1e-4)
     assert not found.at_lower_bound
     assert found.message == ""
@@ -114,7 +114,7 @@ def test_steady_sliding_in_the_place_of_a_cycle_is_told() -> None:
 @pytest.mark.compiled
 def test_critical_values_are_data(tmp_path: Path) -> None:
     found = dm.critical(dm.Parameters(N=385, Omega=12), "Omega", ("14 rad/s", 16), points=5)
-    assert "unstable from 15.0949 rad/s" in repr(found)
+    assert "unstable from Omega = 15.0949 rad/s" in repr(found)
     dm.save(found, tmp_path / "critical.nc")
     data = dm.load(tmp_path / "critical.nc")
     assert data.identical(found.to_dataset())
@@ -135,11 +135,10 @@ def test_critical_values_are_data(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("changed", "told"),
     [
-        ({"bounds": ("5 kg", 15)}, r"^bounds='5 kg': must be a number in rad/s"),
+        ({"bounds": ("5 kg", 15)}, r"^bounds\.0='5 kg': must be a number in rad/s"),
         ({"name": "mu_s", "bounds": (0.1, 0.9)}, r"^mu_k=0\.24: must be <= mu_s=0\.1$"),
-        ({"kind": "slipping"}, "kind='slipping': must be one of stick_slip, sliding"),
+        ({"kind": "slipping"}, "kind='slipping': must be 'stick_slip' or 'sliding'"),
         ({"points": 1}, "points=1"),
-        ({"progress": 3}, "progress=3"),
     ],
 )
 def test_wrong_arguments_are_refused(changed: dict[str, Any], told: str) -> None:

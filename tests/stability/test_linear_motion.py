@@ -119,8 +119,11 @@ def test_a_start_that_never_sticks_is_near_no_cycle() -> None:
 def test_the_first_return_that_is_nearly_the_closest_counts(
     changes: list[float], expected: tuple[float, int]
 ) -> None:
-    """Over a static deflection of 2."""
     start = np.array([1.0, -1.0])
-    later = [start + np.array([2 * change, 0.0]) for change in changes]
-    map_ = SimpleNamespace(returns=lambda *_, **__: later, patient=False, deflection=2.0)
+    later = [start + np.array([change, 0.0]) for change in changes]
+    map_ = SimpleNamespace(
+        returns=lambda *_, **__: later,
+        patient=False,
+        apart=lambda x, y: float(np.linalg.norm(x - y)),
+    )
     assert close_return(map_, start) == pytest.approx(expected, nan_ok=True)

@@ -1,14 +1,11 @@
 """Largest Lyapunov exponents."""
 
-import math
-
 import numpy as np
 import pytest
 
 from disc_model import Parameters, Status, floquet, plate_modes, simulate, steady_sliding
-from disc_model.engine import columns
 from disc_model.simulation.states import perturb, static_start
-from disc_model.stability.lyapunov import _averaged, lyapunov_exponents
+from disc_model.stability.lyapunov import averages, lyapunov_exponents
 from tests.refusals import refusal
 from tests.stability.test_attractor import paradox
 from tests.stability.test_sliding import state_of
@@ -122,24 +119,23 @@ def test_separations_are_those_of_the_averaging_time() -> None:
     assert found.separations == late
 
 
-def test_errors_are_standard_errors_of_16_segments_unless_both_halves_differ_by_more():
+def test_errors_are_standard_errors_of_16_segments_unless_both_halves_differ_by_more() -> None:
     """Of an exponent of 1/s in the mean: segments alternate about it, or rise in the second
     half."""
-    start = static_start(STICK)
     segment = np.arange(16)
     alternating = 1 + 0.4 * (-1.0) ** segment
     rising = np.where(segment < 8, 0.5, 1.5)
     logs = np.repeat(np.column_stack([alternating, rising]), 5, axis=0) * 0.01
-    found = _averaged(Status.OK, logs, 0.01, 2, np.zeros(16), start, False)
-    assert found.exponents == pytest.approx([1.0, 1.0], rel=1e-12)
+    exponents, errors, converged = averages(logs, 0.01)
+    assert exponents == pytest.approx([1.0, 1.0], rel=1e-12)
     # the standard error of a mean of n values is their deviation over the root of n
     standard_error = np.std(alternating, ddof=1) / np.sqrt(16)
-    assert found.errors == pytest.approx([standard_error, 1.0], rel=1e-12)
-    assert found.converged.tolist() == [True, False]
+    assert errors == pytest.approx([standard_error, 1.0], rel=1e-12)
+    assert converged.tolist() == [True, False]
 
 
 @pytest.mark.parametrize(
-    ("halves", "converged"),
+    ("halves", "expected"),
     [
         ((0.0005, 0.0015), True),  # within 0.002/s, though not within 5 %
         ((0.99, 1.01), True),  # within 5 %, though not within 0.002/s
@@ -150,51 +146,8 @@ def test_errors_are_standard_errors_of_16_segments_unless_both_halves_differ_by_
     ],
 )
 def test_halves_agree_within_a_share_or_within_a_rate(
-    halves: tuple[float, float], converged: bool
+    halves: tuple[float, float], expected: bool
 ) -> None:
-    logs = np.repeat(halves, 80)[:, None] * 0.01
-    found = _averaged(Status.OK, logs, 0.01, 1, np.zeros(16), static_start(STICK), False)
-    first, second = halves
-    assert found.exponents == pytest.approx([(first + second) / 2], abs=1e-12)
-    assert found.duration == pytest.approx(1.6)
-    assert found.converged.tolist() == [converged]
-
-
-def logs_of(*rates: float) -> np.ndarray:
-    """Logarithms of growth over 32 intervals of half a second."""
-    return np.tile(0.5 * np.array(rates), (32, 1))
-
-
-@pytest.mark.parametrize(
-    ("rates", "releases", "exponents", "trivial"),
-    [
-        ((0.01, 2.0, -3.0), 4, [2.0, -3.0], 0.01),  # the one along the motion is between others
-        ((0.01, -2.0, -3.0), 4, [-2.0, -3.0], 0.01),
-        ((0.01, 2.0, -3.0), 0, [2.0, 0.01], math.nan),  # without events there is none
-    ],
-)
-def test_the_exponent_along_the_motion_is_left_out_wherever_it_is(
-    rates: tuple[float, ...], releases: int, exponents: list[float], trivial: float
-) -> None:
-    log = np.zeros(1 + max(columns.RELEASES, columns.STICKS, columns.SEPARATIONS))
-    log[columns.RELEASES] = releases
-    log[columns.SEPARATIONS] = 0
-    end = static_start(STICK)
-    found = _averaged(Status.OK, logs_of(*rates), 0.5, 2, log, end, True)
-    assert found.exponents == pytest.approx(exponents)
-    assert found.trivial_exponent == pytest.approx(trivial, nan_ok=True)
-    assert found.duration == 16.0
-    assert found.converged.tolist() == [True, True]
-
-
-@pytest.mark.parametrize("event", [columns.RELEASES, columns.STICKS, columns.SEPARATIONS])
-def test_a_motion_with_events_of_any_kind_has_an_exponent_along_it(event: int) -> None:
-    """Such as one that slips and separates, but never sticks."""
-    log = np.zeros(1 + max(columns.RELEASES, columns.STICKS, columns.SEPARATIONS))
-    log[event] = 3
-    logs = logs_of(0.01, -2.0)
-    end = static_start(STICK)
-    found = _averaged(Status.OK, logs, 0.5, 1, log, end, True)
-    assert found.trivial_exponent == pytest.approx(0.01)
-    [exponent] = found.exponents
-    assert exponent == pytest.approx(-2.0)
+    exponents, _, converged = averages(np.repeat(halves, 80)[:, None] * 0.01, 0.01)
+    assert exponents == pytest.approx([sum(halves) / 2], abs=1e-12)
+    assert converged.tolist() == [expected]

@@ -32,7 +32,7 @@ def test_a_departure_is_where_the_simulated_motion_is(latest: float) -> None:
     later = near.after(time - near.time)
     assert later is not None
     # the part of the leading multiplier, since the distance rises and falls in a turn of it
-    simulated = abs(near.leading @ (later[0] - near.x))
+    simulated = abs(near.leading @ later.distance)
     extrapolated = abs(near.leading @ (x - near.x))
     assert np.linalg.norm(x - near.x) <= follower.NEAR * near.map.deflection
     # the simulated motion has grown by what half the excess adds, of the second order in the

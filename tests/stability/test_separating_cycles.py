@@ -97,15 +97,15 @@ def test_continuation_finds_the_simulated_motion_and_where_it_ends() -> None:
     branch = continue_cycle(
         p, "Omega", (14.0, 18.0), guess=late, releases=2, direction=1, steps=steps
     )
-    end = float(branch.values[-1, 0])
+    end = float(branch.values[-1])
     assert end == pytest.approx(15.97174, abs=1e-4)
     assert branch.ended == "grazing"
     assert np.all(branch.growth_rate < 0)
     assert np.all(branch.separations == 2)
     # started a little beside the branch, motions come to it; a jump of the speed can lead elsewhere
-    middle = int(np.argmin(np.abs(branch.values[:, 0] - 15.6)))
+    middle = int(np.argmin(np.abs(branch.values - 15.6)))
     for point, shift, found in ((middle, 0.0, True), (-1, -0.01, True), (-1, 0.01, False)):
-        there = p.replace(Omega=float(branch.values[point, 0]) + shift)
+        there = p.replace(Omega=float(branch.values[point]) + shift)
         x = ReturnMap(branch.case_at(point)).point(branch.state(point))
         direction = np.random.default_rng(0).normal(size=x.size) / np.sqrt(x.size)
         beside = x + 1e-3 * np.linalg.norm(x) * direction

@@ -7,8 +7,13 @@ from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Window
 from disc_model.simulation.states import perturb
-from disc_model.stability.follower import approaches_sliding, departs_from_sliding, find_outcome
-from disc_model.stability.segments import shares, slips_on
+from disc_model.stability.follower import (
+    approaches_sliding,
+    departs_from_sliding,
+    find_outcome,
+    slips_on,
+)
+from disc_model.stability.segments import stick_share
 from disc_model.stability.sliding import height_of_slider, steady_sliding
 
 pytestmark = pytest.mark.compiled
@@ -90,7 +95,7 @@ def test_a_motion_that_departs_from_sliding_grows_until_it_separates(horizon: fl
 
 def test_slip_between_two_sticks_is_no_departure_from_sliding() -> None:
     leg = simulate(STICKS, 5.0)
-    assert shares(leg).stick > 0
+    assert stick_share(leg) > 0
     assert not slips_on(leg)
 
 

@@ -156,7 +156,7 @@ def test_the_fold_of_the_quiet_cycle_comes_to_the_paper_s():
     branch = continue_cycle(
         Parameters(N=385, Omega=14, friction_decay=50), "friction_decay", (40, 100)
     )
-    reached = Parameters(N=385, Omega=14, friction_decay=branch.values[-1, 0])
+    reached = Parameters(N=385, Omega=14, friction_decay=branch.values[-1])
     assert branch.growth_rate[-1] == pytest.approx(floquet(reached).growth_rate, abs=1e-8)
 
 

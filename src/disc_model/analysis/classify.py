@@ -75,11 +75,8 @@ def motion_of(intervals: Array, tolerance: float = CLOSES) -> Motion:
     if period:
         return Motion(Outcome.OTHER_CYCLE, period, closure(intervals, period))
     chaos = zero_one(intervals)
-    kind = Outcome.UNDECIDED
-    if chaos < REGULAR:
-        kind = Outcome.QUASI_PERIODIC
-    elif chaos > 1 - REGULAR:
-        kind = Outcome.IRREGULAR
+    kinds = (Outcome.QUASI_PERIODIC, Outcome.UNDECIDED, Outcome.IRREGULAR)
+    kind = kinds[(chaos >= REGULAR) + (chaos > 1 - REGULAR)]
     return Motion(kind, 0, closure(intervals, 1), chaos)
 
 
@@ -137,15 +134,9 @@ def zero_one(values: Array) -> float:
         sums = np.append(0.0, np.cumsum(np.abs(path) ** 2))
         together = correlate(path, path[:count], mode="valid", method="fft").real
         square = sums[count + steps] - sums[steps] + sums[count] - 2 * together[steps]
-        square /= count
 
-        # without its oscillating part it grows with j in chaos
-        oscillating = (1 - np.cos(c * steps)) / (1 - np.cos(c))
-        square -= signal.mean() ** 2 * oscillating
-        growth = 0.0
-        if np.ptp(square):
-            growth = float(np.corrcoef(steps, square)[0, 1])
-        growths.append(growth)
+        # it grows with j in chaos
+        growths.append(np.corrcoef(steps, square)[0, 1] if np.ptp(square) else 0.0)
     return float(np.median(growths))
 
 
@@ -161,10 +152,8 @@ def separation_location(height: Array, starts: Indices) -> float:
     -------
     float
         Median share of the range of the cycle, one dominant period around the loss: 0 at its lowest, 1 at its highest
-        point. Raises ValueError if there is no separation.
+        point
     """
-    if not len(starts):
-        raise ValueError("no separation")
     # half a period of the dominant oscillation
     amplitude = np.abs(np.fft.rfft(height - np.mean(height)))
     oscillations = int(np.argmax(amplitude[1:]) + 1)
@@ -173,8 +162,7 @@ def separation_location(height: Array, starts: Indices) -> float:
     shares = []
     for start in starts:
         cycle = height[max(0, start - half) : start + half + 1]
-        extent = float(np.ptp(cycle)) or 1.0
-        shares.append((height[start] - cycle.min()) / extent)
+        shares.append((height[start] - cycle.min()) / (np.ptp(cycle) or 1.0))
     return float(np.median(shares))
 
 
@@ -187,10 +175,11 @@ def share(
 
     if trials == 0:
         return np.nan, 0.0, 1.0
-    known = trials + unknown
-    as_misses = binomtest(hits, known).proportion_ci(confidence, "wilson")
-    as_hits = binomtest(hits + unknown, known).proportion_ci(confidence, "wilson")
-    return hits / trials, float(as_misses.low), float(as_hits.high)
+    low, high = (
+        binomtest(count, trials + unknown).proportion_ci(confidence, "wilson")
+        for count in (hits, hits + unknown)
+    )
+    return hits / trials, float(low.low), float(high.high)
 
 
 # ---- Points of a Poincare section, one sample every 2 pi/Omega
@@ -269,8 +258,6 @@ class Settling(NamedTuple):
     since: float = np.nan
 
     def __str__(self) -> str:
-        if not np.isfinite(self.least):
-            return f"{self.answer}, since a part of the record has too few events to show a change"
         if self.answer is Settled.UNDECIDED:
             return f"{self.answer}, since the record cannot show changes below {self.least:.2g}/s"
         return f"{self.answer} at {self.rate:.2g}/s"
@@ -313,9 +300,8 @@ def _drift(t: Array, x: Array, slowest: float, still: float) -> Settling:
         return Settling()
 
     # moments of each window, relative to the width of the motion
-    means = np.array([part.mean() for part in windows])
-    spreads = np.array([part.std() for part in windows])
-    width = max(2 * spreads.max(), still * float(np.abs(means).max()), np.finfo(float).tiny)
+    means, spreads = np.transpose([(part.mean(), part.std()) for part in windows])
+    width = max(2 * spreads.max(), still * np.abs(means).max(), np.finfo(float).tiny)
     moments = np.array([means / width, 2 * spreads / width, counts / counts.mean()])
 
     # slopes of lines through them, and their errors, 1/s
@@ -326,13 +312,14 @@ def _drift(t: Array, x: Array, slowest: float, still: float) -> Settling:
     # the fastest change, of those that are clear if there are any
     sizes = np.abs(slopes)
     clear = sizes > np.maximum(errors, slowest)
-    fastest = int(np.lexsort((sizes, clear))[-1])
-    if clear.any():
-        return Settling(Settled.CHANGING, float(slopes[fastest]), float(errors[fastest]))
+    fastest = np.lexsort((sizes, clear))[-1]
+    rate = float(slopes[fastest])
+    if clear[fastest]:
+        return Settling(Settled.CHANGING, rate, float(errors[fastest]))
     least = float(errors.max())
     if max(least, sizes.max()) <= slowest:
-        return Settling(Settled.SETTLED, float(slopes[fastest]), least, float(t[0]))
-    return Settling(Settled.UNDECIDED, float(slopes[fastest]), least)
+        return Settling(Settled.SETTLED, rate, least, float(t[0]))
+    return Settling(Settled.UNDECIDED, rate, least)
 
 
 SECTIONS = ("psi", "w_point")
@@ -348,22 +335,17 @@ def settled_since(section: Mapping[str, ArrayLike], bins: Mapping[str, ArrayLike
     bins : ranges of an envelope beside it, if there is one, such as w_point_min and w_point_max: their widths decide
         where the section itself shows nothing
     """
-    since = [_since(section, bins, name) for name in SECTIONS]
-    if not np.isfinite(since).all():
-        return math.nan
     time = np.asarray(section["time"])
+    since: list[float] = []
+    for name in SECTIONS:
+        found = settling(time, section[name])
+        if math.isnan(found.since) and bins is not None:
+            widths = np.subtract(bins[f"{name}_max"], bins[f"{name}_min"])
+            # the last one is cut
+            found = settling(np.asarray(bins["time"])[:-1], widths[:-1], still=1.0)
+        since.append(found.since)
+    if np.isnan(since).any():
+        return math.nan
     start = min(int(np.searchsorted(time, max(since))), len(time) - 1)
     columns = [section[f"{name}{of}"] for name in SECTIONS for of in ("", "_velocity")]
     return float(time[first_settled(np.column_stack(columns), start)])
-
-
-def _since(
-    section: Mapping[str, ArrayLike], bins: Mapping[str, ArrayLike] | None, name: str
-) -> float:
-    """Time from which a variable has settled, s; nan if this is not shown."""
-    since = settling(section["time"], section[name]).since
-    if math.isnan(since) and bins is not None:
-        widths = np.subtract(bins[f"{name}_max"], bins[f"{name}_min"])
-        # the last one is cut
-        since = settling(np.asarray(bins["time"])[:-1], widths[:-1], still=1.0).since
-    return since

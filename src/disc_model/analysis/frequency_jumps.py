@@ -19,18 +19,12 @@ def frequency_jumps(speeds: Array, frequency: Array) -> Mask:
     neither before nor after with a like slope. None beside a speed without a frequency."""
     slopes = np.diff(frequency) / np.diff(speeds)
     change = np.abs(np.diff(np.log(frequency)))
-    beside = np.concatenate([[np.nan], slopes, [np.nan]])
-    before = beside[:-2]
-    after = beside[2:]
-    steps_beside = np.isfinite(before).astype(int) + np.isfinite(after)
-    goes_on = _goes_on(slopes, before) | _goes_on(slopes, after)
-    steepest = np.fmax(np.abs(before), np.abs(after))
-    inside = (steps_beside == 2) & ~goes_on
-    at_end = (steps_beside == 1) & (np.abs(slopes) > STEEPER_AT_END * steepest)
-    alone = (steps_beside == 0) & (change > LEAST_ALONE)
-    return (change > LEAST) & (inside | at_end | alone)
-
-
-def _goes_on(slopes: Array, others: Array) -> Mask:
-    """Whether others have the same direction as slopes, and are not much less steep."""
-    return (slopes * others > 0) & (np.abs(slopes) <= STEEPER * np.abs(others))
+    padded = np.pad(slopes, 1, constant_values=np.nan)
+    beside = np.array([padded[:-2], padded[2:]])
+    steps = np.isfinite(beside).sum(axis=0)
+    sizes = np.abs(slopes)
+    # steps beside have the same direction, and are not much less steep
+    goes_on = (slopes * beside > 0) & (sizes <= STEEPER * np.abs(beside))
+    at_end = sizes > STEEPER_AT_END * np.fmax(*np.abs(beside))
+    jumps = np.choose(steps, [change > LEAST_ALONE, at_end, ~goes_on.any(axis=0)])
+    return (change > LEAST) & jumps

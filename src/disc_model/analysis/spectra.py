@@ -3,7 +3,6 @@ resonances."""
 
 import cmath
 import math
-from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -23,13 +22,9 @@ fifth."""
 HIGHEST_HARMONIC = 12  # of the stick-slip frequency in combinations,
 HIGHEST_TURN = 3  # and of the drive's
 EQUALLY_NEAR = 3  # digits of Hz to which combinations are equally near
-_ORDERS = [
-    (n, m)
-    for n in range(HIGHEST_HARMONIC + 1)
-    for m in range(-HIGHEST_TURN, HIGHEST_TURN + 1)
-    if n > 0 or m > 0  # others are no frequency
-]
-HARMONICS, TURNS = np.transpose(_ORDERS)
+_ORDERS = np.mgrid[: HIGHEST_HARMONIC + 1, -HIGHEST_TURN : HIGHEST_TURN + 1].reshape(2, -1)
+# without n = 0 and m <= 0, which are no frequency
+HARMONICS, TURNS = _ORDERS[:, HIGHEST_TURN + 1 :]
 """Orders n and m of all combinations, shape (combinations,)."""
 
 
@@ -50,13 +45,9 @@ class Combination(NamedTuple):
     deviation: float
 
     def __str__(self) -> str:
-        if not self.m:
-            return f"{self.n} f_s".removeprefix("1 ")
-        drive = f"{abs(self.m)} f_Ω".removeprefix("1 ")
-        if not self.n:
-            return drive
-        sign = "−" if self.m < 0 else "+"
-        return f"{self.n} f_s".removeprefix("1 ") + f" {sign} {drive}"
+        sign = " − " if self.m < 0 else " + "
+        parts = ((self.n, "f_s"), (abs(self.m), "f_Ω"))
+        return sign.join(f"{order} {name}".removeprefix("1 ") for order, name in parts if order)
 
 
 class TimeFrequency(NamedTuple):
@@ -71,18 +62,16 @@ class TimeFrequency(NamedTuple):
 def rate_of(time: ArrayLike, values: ArrayLike) -> float:
     """Sampling rate (Hz) of uniform samples, both of shape (n,); raises ParameterError if they are
     not uniform."""
-    time = np.asarray(time, dtype=float)
-    values = np.asarray(values, dtype=float)
-    if time.ndim != 1 or values.shape != time.shape or time.size < 2:
+    t, x = np.asarray(time, dtype=float), np.asarray(values, dtype=float)
+    if t.ndim != 1 or x.shape != t.shape or t.size < 2:
         raise ParameterError("values: must be two or more, one for each time")
-    if not np.isfinite(values).all():
+    if not np.isfinite(x).all():
         raise ParameterError("values: must be finite")
-    step = float(time[-1] - time[0]) / (len(time) - 1)
-    even = np.linspace(time[0], time[-1], len(time))
+    even, step = np.linspace(t[0], t[-1], len(t), retstep=True)
     # a missing sample shifts times by half a step or more, and rounding by less
-    if not step > 0 or not np.all(np.abs(time - even) < 0.45 * step):
+    if not step > 0 or not np.all(np.abs(t - even) < 0.45 * step):
         raise ParameterError("time: must rise in even steps; resample an uneven signal first")
-    return 1 / step
+    return float(1 / step)
 
 
 def amplitude_spectrum(time: ArrayLike, values: ArrayLike) -> tuple[Array, Array]:
@@ -131,11 +120,8 @@ def lines(
 
     frequency, amplitude = amplitude_spectrum(time, values)
     step = float(frequency[1])
-    distance = RESOLVED
-    if apart is not None:
-        distance = max(1, round(apart / step))
-    least = SIDE_LOBES * amplitude.max()
-    peaks, _ = find_peaks(amplitude, height=least, distance=distance)
+    distance = RESOLVED if apart is None else max(1, round(apart / step))
+    peaks, _ = find_peaks(amplitude, height=SIDE_LOBES * amplitude.max(), distance=distance)
 
     # vertices of parabolas through the logarithms of the maxima and their neighbours
     levels = np.log(np.maximum(amplitude, np.finfo(float).tiny))
@@ -177,8 +163,7 @@ def main_vibration(time: ArrayLike, values: ArrayLike) -> MainVibration:
     found = lines(time, values, floor=0.5)
     if not found:
         raise ValueError("the signal has no line")
-    frequency = max(found, key=lambda line: line.amplitude).frequency
-    return vibration_at(time, values, frequency)
+    return vibration_at(time, values, max(found, key=lambda line: line.amplitude).frequency)
 
 
 def vibration_at(time: ArrayLike, values: ArrayLike, frequency: float) -> MainVibration:
@@ -204,12 +189,8 @@ def identify(frequency: float, f_s: float, f_drive: float) -> Combination:
     # the nearest first, and of those the one with the smallest orders
     distances = np.round(np.abs(deviations), EQUALLY_NEAR)
     first = np.lexsort((HARMONICS + np.abs(TURNS), distances))[0]
-    return Combination(
-        int(HARMONICS[first]),
-        int(TURNS[first]),
-        float(frequencies[first]),
-        float(deviations[first]),
-    )
+    columns = (HARMONICS, TURNS, frequencies, deviations)
+    return Combination(*(column[first].item() for column in columns))
 
 
 def time_frequency(
@@ -253,8 +234,7 @@ def time_frequency(
 # figures
 
 
-@dataclass(frozen=True)
-class Resonance:
+class Resonance(NamedTuple):
     """A resonance n f_s = f -/+ l Omega / 2 pi of a cycle.
 
     harmonic : n; half-integer for a period doubling
@@ -272,11 +252,8 @@ class Resonance:
     @property
     def label(self) -> str:
         """Label in figures, such as "2 f_s = 135.42 Hz" or "4 f_s = 290.28 Hz - 2 Ω/2π"."""
-        standing = f"{self.harmonic:g} f_s = {self.frequency:.2f} Hz"
-        if not self.sign:
-            return standing
-        side = "-" if self.sign < 0 else "+"
-        return f"{standing} {side} {self.diameters} Ω/2π"
+        side = ("", f" + {self.diameters} Ω/2π", f" - {self.diameters} Ω/2π")[self.sign]
+        return f"{self.harmonic:g} f_s = {self.frequency:.2f} Hz{side}"
 
 
 def nearest_resonance(
@@ -291,10 +268,8 @@ def nearest_resonance(
     rate = 1 / float(period)
     turn = p.Omega / (2 * math.pi)
     angle = cmath.phase(multiplier) / (2 * math.pi)
-    doubles = multiplier.imag == 0 and multiplier.real < 0
-    half = 0.5 * doubles
-
-    found: list[tuple[float, Resonance]] = []
+    half = 0.5 * (multiplier.imag == 0 and multiplier.real < 0)  # of a period doubling
+    found: dict[float, Resonance] = {}
     for mode in modes_at_rest(p):
         if mode.diameters != diameters:
             continue
@@ -305,8 +280,8 @@ def nearest_resonance(
             detuning = float((harmonic - seen) * rate)
             # how far it is from the multiplier's angle, in turns
             miss = min(abs((seen - side * angle + 0.5) % 1 - 0.5) for side in (-1, 1))
-            found.append((miss, Resonance(harmonic, mode.frequency, diameters, sign, detuning)))
-    return min(found, key=lambda pair: pair[0])[1]
+            found.setdefault(miss, Resonance(harmonic, mode.frequency, diameters, sign, detuning))
+    return found[min(found)]
 
 
 class ModeAtRest(NamedTuple):
@@ -324,9 +299,12 @@ def modes_at_rest(p: Parameters) -> list[ModeAtRest]:
     modes = mode_arrays(p)
     omegas, shapes = coupled_shapes(p, contact_compliance(p))
     largest = np.abs(shapes[: len(modes.omega)]).argmax(axis=0)
-    bound = zip(omegas.tolist(), modes.diameters[largest].tolist(), strict=True)
-    free = zip(modes.omega.tolist(), modes.diameters.tolist(), strict=True)
-    found = [ModeAtRest(omega / (2 * math.pi), l, bound=True) for omega, l in bound]
-    # those with a nodal diameter at the slider
-    found += [ModeAtRest(omega / (2 * math.pi), l, bound=False) for omega, l in free if l > 0]
+    found: list[ModeAtRest] = []
+    for moved, diameters, bound in (
+        (omegas, modes.diameters[largest], True),
+        (modes.omega, modes.diameters, False),
+    ):
+        of_kind = zip((moved / (2 * math.pi)).tolist(), diameters.tolist(), strict=True)
+        # free are those with a nodal diameter at the slider
+        found += [ModeAtRest(hertz, l, bound) for hertz, l in of_kind if bound or l > 0]
     return sorted(found)

@@ -7,7 +7,7 @@ import xarray as xr
 from disc_model.data.variables import OF_RESULTS
 from disc_model.errors import require
 
-ATTRIBUTES = ("ended", "parameters", "free_parameters", "not_reached")
+ATTRIBUTES = ("ended", "parameters", "free_parameters")
 """Attributes of a branch, which are variables of a sweep."""
 PRESENT = {
     "point": "period",
@@ -55,7 +55,7 @@ def branch_of_sweep(data: xr.Dataset) -> xr.Dataset:
     for dim in ("point", "special"):
         places = (dim, range(own.sizes[dim]), OF_RESULTS["Branch"][dim].attributes)
         own = own.assign_coords({dim: places})
-    free = str(row["free_parameters"].item()).split(", ")
-    own = own.set_coords([*free, *(f"special_{name}" for name in free)])
-    own.attrs = {name: row[name].item() for name in ATTRIBUTES if name in row}
+    free = str(row["free_parameters"].item())
+    own = own.set_coords([free, f"special_{free}"])
+    own.attrs = {name: row[name].item() for name in ATTRIBUTES}
     return own.assign_attrs(versions=data.attrs["versions"])

@@ -61,31 +61,26 @@ def column(name: str, values: Any, attributes: Any = None, units: Any = None) ->
 
 
 def draw_branch(ax: Axes, branch: Any, y: str, units: Any, **look: Any) -> None:
-    """Draw a variable of the cycles along a branch over its parameter, or its second parameter over
-    the first: thick where they are stable, with the special points."""
-    first, *second = branch.parameters
-    values = branch.refined("values")
-    x = column(first, values[:, 0], units=units)
-    if second:
-        up = column(second[0], values[:, 1], units=units)
-    else:
-        known = OF_RESULTS["Branch"][y].attributes
-        up = column(y, branch.refined(y), known, units)
-        up.attrs["long_name"] = known["long_name"].capitalize()
-    own = {"linewidth": THIN, "label": case_text(branch.case, *branch.parameters)}
+    """Draw a variable of the cycles along a branch over its parameter: thick where they are stable,
+    with the special points."""
+    x = column(branch.name, branch.refined(branch.name), units=units)
+    known = OF_RESULTS["Branch"][y].attributes
+    up = column(y, branch.refined(y), known, units)
+    up.attrs["long_name"] = known["long_name"].capitalize()
+    own = {"linewidth": THIN, "label": case_text(branch.case, branch.name)}
     [line] = ax.plot(x, up.where(np.isfinite(up)), **wished(look, **own))
     colour = line.get_color()
-    stable = stable_between(branch.refined_growth_rate())
+    stable = stable_between(branch.refined("growth_rate"))
     thicken(ax, x, up, stable, "thick: stable", color=colour)
     mark_missing(ax, x[np.isneginf(up)], BELOW_ANY, colour, marker="v")
     for kind, (marker, name) in SPECIAL.items():
         found = [point for point in branch.special if point.kind == kind]
-        places = [placed(x, point.values[0]) for point in found]
-        heights = [placed(up, point.values[1] if second else getattr(point, y)) for point in found]
+        places = [placed(x, point.value) for point in found]
+        heights = [placed(up, getattr(point, y)) for point in found]
         marks = {"marker": marker, "markerfacecolor": colour, "markersize": 5}
         mark_points(ax, places, heights, name, color=colour, **marks)
     ax.set(xlabel=label(x), ylabel=label(up))
-    if y == "growth_rate" and not second:
+    if y == "growth_rate":
         rate_axis(ax)
 
 

@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import math
 import warnings
-from contextlib import suppress
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from disc_model.errors import Fault, ParameterError, as_text, raise_faults, require, violations
+from disc_model.errors import as_text, raise_faults, require
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.simulation import states
 from disc_model.simulation.case import (
@@ -24,7 +22,7 @@ from disc_model.simulation.case import (
 from disc_model.simulation.result import Result
 from disc_model.simulation.run import Request, Run
 from disc_model.simulation.states import State
-from disc_model.units import TOLERANCES, in_si, limits_faults, number
+from disc_model.units import in_si
 
 _PLAIN = Execution()
 
@@ -60,7 +58,7 @@ def simulate(  # noqa: PLR0913
         start (static equilibrium, stick, spring relaxed)
     stop_at : None, or "first_separation" to end at the first loss of contact
     ramps : slow changes of Omega or N, in absolute time: a ramp may have begun before the initial state's time
-    execution : progress, largest number of steps and audit of energies, see `Execution`
+    execution : largest number of steps and audit of energies, see `Execution`
 
     Returns
     -------
@@ -82,87 +80,40 @@ def simulate(  # noqa: PLR0913
     >>> run["late"]["P"].sizes, run["late"]["P"].attrs["units"]
     (Frozen({'time': 2001}), 'N')
     """
-    if isinstance(ramps, Ramp):
-        ramps = (ramps,)
-    start, end, faults = _span(t_end, duration, initial_state)
-    stops = stop_at is None or (isinstance(stop_at, str) and stop_at == "first_separation")
-    wrong = violations(
-        (isinstance(events, bool), "events", events, "must be True or False"),
-        (
-            isinstance(initial_state, State | None),
-            "initial_state",
-            initial_state,
-            "must be a State",
-        ),
-        (stops, "stop_at", stop_at, "must be None or 'first_separation'"),
-        (isinstance(execution, Execution), "execution", execution, "must be an Execution"),
-    )
-    raise_faults([*foreign_case(case), *limits_faults("tol", tol, TOLERANCES), *faults, *wrong])
-
-    # windows and ramps have rules on the times of the run, which are valid from here on
-    sampled = _sampled(windows, start, end, stop_at)
-    sections = any(isinstance(window, Poincare) for window in sampled.values())
-    raise_faults([*ramp_faults(case, ramps, poincare=sections)])
-
-    loosest = states.loosest_tolerance(case)
-    if tol > loosest:
-        used = f"tol={tol:g}: the series need {loosest:g} at most, which is used"
-        warnings.warn(used, stacklevel=3)
-    request = Request(
-        parameters=case,
-        start=start,
-        t_end=end,
-        tol=min(float(tol), loosest),
-        windows=sampled,
+    asked = Request(
+        case=case,
+        t_end=t_end,
+        windows=windows or {},
+        duration=duration,
         events=events,
+        tol=tol,
         initial_state=initial_state,
         stop_at=stop_at,
         ramps=ramps,
         execution=execution,
     )
-    return Run(request).complete()
+    start = 0.0 if initial_state is None else float(initial_state.time)
+    end = asked.t_end
+    if asked.duration is not None:
+        end = start + asked.duration
+    rule = f"must be > {as_text(start)}, the time of the initial state"
+    require((end is not None and start < end < math.inf, "t_end", t_end, rule))
+    assert end is not None
 
-
-def _sampled(windows: Windows | None, start: float, end: float, stop_at: str | None) -> Windows:
-    """Return the windows of a run by name, with absolute times."""
-    if windows is None:
-        return {}
-    sampled = resolved_windows(windows, start, end)
-    if stop_at is not None:
-        backward = [name for name, each in windows.items() if getattr(each, "last", None)]
+    for name, window in asked.windows.items():
+        last = getattr(window, "last", None)
         rule = "must not be given with stop_at: where the run ends is not known before"
-        raise_faults([Fault(("windows", name, "last"), "", rule) for name in backward])
-    return sampled
+        require((last is None or stop_at is None, f"windows.{name}.last", last, rule))
+    sampled = resolved_windows(asked.windows, start, end)
+    sections = any(isinstance(window, Poincare) for window in sampled.values())
+    raise_faults([*ramp_faults(case, asked.ramps, poincare=sections)])
 
-
-def _span(t_end: Any, duration: Any, initial_state: Any) -> tuple[float, float, list[str]]:
-    """Return the times of a run from an end or a duration, s, one of which must be given, and what is wrong with
-    them. They are plain floats: others would make the engine compile again, and would round differently."""
-    if t_end is None and duration is None:
-        raise ParameterError(Fault(("t_end",), "", "is required, or duration instead of it"))
-    alone = t_end is None or duration is None
-    require((alone, "t_end", t_end, f"must be left out beside {duration=!s}"))
-
-    # the start is 0 until its fault is reported
-    time: Any = getattr(initial_state, "time", 0.0)
-    is_time = states.is_finite(time)
-    start = 0.0
-    if is_time:
-        start = float(time)
-    name, value, begin = "t_end", t_end, 0.0
-    if t_end is None:
-        name, value, begin = "duration", duration, start
-    end = math.nan
-    with suppress(ValueError):  # of what is no number
-        end = begin + number(in_si(value, "s", [], ()))
-    rule = (
-        f"must be finite, in s or as '2 min', and > {as_text(start)}, the time of the initial state"
-    )
-    faults = violations(
-        (is_time, "initial_state.time", time, "must be finite"),
-        (start < end < math.inf, name, value, rule),
-    )
-    return start, end, faults
+    loosest = states.loosest_tolerance(case)
+    if asked.tol > loosest:
+        used = f"tol={tol:g}: the series need {loosest:g} at most, which is used"
+        warnings.warn(used, stacklevel=3)
+    resolved = {"t_end": end, "windows": sampled, "tol": min(asked.tol, loosest)}
+    return Run(asked.model_copy(update=resolved), start).complete()
 
 
 def snapshots(
@@ -200,29 +151,19 @@ def snapshots(
     ['stick', 'slip']
     """
     raise_faults(foreign_case(case))
-    numbers = states.finite_numbers(in_si(times, "s", [], ()))
-    ascend = numbers is not None and not np.any(np.diff(numbers) < 0)
+    wanted = states.finite_numbers(in_si(times, "s", [], ()))
+    ascend = wanted is not None and not np.any(np.diff(wanted) < 0)
+    is_state = isinstance(initial_state, State | None)
     require(
-        (
-            isinstance(initial_state, State | None),
-            "initial_state",
-            initial_state,
-            "must be a State",
-        ),
+        (is_state, "initial_state", initial_state, "must be a State"),
         (ascend, "times", times, "must be finite and ascend"),
     )
-    if isinstance(ramps, Ramp):
-        ramps = (ramps,)
-    raise_faults(
-        [*ramp_faults(case, ramps, poincare=False), *limits_faults("tol", tol, TOLERANCES)]
-    )
-    assert numbers is not None
-    wanted = numbers.tolist()
+    assert wanted is not None
     state = initial_state or states.static_start(case)
     rule = f"must be >= {as_text(state.time)} (the time of the initial state)"
-    require(*((time >= state.time, "times", time, rule) for time in wanted[:1]))
+    require((not np.any(wanted < state.time), "times", times, rule))
     reached: list[State] = []
-    for time in wanted:
+    for time in wanted.tolist():
         if time > state.time:
             run = simulate(case, time, tol=tol, events=False, initial_state=state, ramps=ramps)
             state = run.raise_for_status().final_state

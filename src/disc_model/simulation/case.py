@@ -1,33 +1,24 @@
-"""Requests to a simulation: recorded quantities, ramps, initial state, and a case of a study as a
-text."""
+"""What is asked of a simulation: recorded windows, ramps, the start, and a case of a study as a text."""
 
 from __future__ import annotations
 
-import json
 import math
-import re
 import sys
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import pairwise
 from typing import Annotated, Any, Literal, NamedTuple, Self
 
-from pydantic import (
-    BeforeValidator,
-    Field,
-    create_model,
-    field_validator,
-    model_serializer,
-    model_validator,
-)
+from pydantic import Field, create_model, field_validator, model_validator
 
-from disc_model.data.variables import BESIDE_WINDOWS, rule_of_taken
-from disc_model.errors import Fault, ParameterError, as_text, raise_faults, require
+from disc_model.errors import Fault, as_text, require
 from disc_model.parameters import FORMAT, Parameters
 from disc_model.provenance import canonical_json, content_key
 from disc_model.units import Count, Finite, Positive, Real, Seconds, Strict, Unit
 
 Time = Annotated[Real, Field(ge=0, allow_inf_nan=False), Unit("s")]
-Angle = Annotated[Real, Field(allow_inf_nan=False), Unit("rad")]
+Stop = Annotated[Real, Field(ge=0), Unit("s")]
+Angle = Annotated[Finite, Unit("rad")]
+ROUNDING = 1e-9  # of a time at the end of a run, relative; of a sample's, in intervals
 
 
 class SampleTimes(NamedTuple):
@@ -38,6 +29,18 @@ class SampleTimes(NamedTuple):
     number: int
     theta: float  # rad, angle of the point fixed to the disc
     end: float  # s, of the run
+
+
+def _sample_times(
+    origin: float, interval: float, span: tuple[float, float], theta: float, t_end: float
+) -> SampleTimes:
+    """Samples an interval apart, of which one may be at the origin, in a span of time (s)."""
+    interval = min(interval, sys.float_info.max)
+    begin, end = ((time - origin) / interval for time in span)
+    first = math.ceil(begin - ROUNDING)
+    # the last one may be rounded to behind the end; as many samples are refused by what holds them
+    last = math.floor(min(end * (1 + 1e-15) + ROUNDING, 2.0**62))
+    return SampleTimes(origin + first * interval, interval, max(0, last - first + 1), theta, t_end)
 
 
 class Interval(Strict):
@@ -57,7 +60,7 @@ class Span(Interval):
     it."""
 
     start: Time = 0.0
-    stop: Annotated[Real, Field(ge=0), Unit("s")] = math.inf
+    stop: Stop = math.inf
     last: Seconds | None = None
 
     @model_validator(mode="after")
@@ -66,32 +69,17 @@ class Span(Interval):
         require((alone, "last", self.last, "must not be given beside start or stop"))
         return self
 
-    @model_serializer(mode="wrap")
-    def _plain(self, handler: Any) -> dict[str, Any]:
-        """Leave out an absent ``last``, so that older content addresses stay valid."""
-        return {
-            name: value
-            for name, value in handler(self).items()
-            if name != "last" or value is not None
-        }
-
     def resolved(self, start: float, t_end: float) -> Self:
         """The same span with absolute times, for a run from ``start`` to ``t_end``. Raises
         `ParameterError` if it has no stop time and begins at the end of the run or later."""
         first, stop = self.ends(start, t_end)
-        if (first, stop) == (self.start, self.stop):
-            return self
         return self.replace(start=first, stop=stop, last=None)
 
     def ends(self, start: float, t_end: float) -> tuple[float, float]:
         """Absolute times of its ends, s, for a run from ``start`` to ``t_end``, even if they are
         not within the run."""
-        first = self.start
-        if self.last is not None:
-            first = max(t_end - self.last, start)
-        if self.stop < math.inf:
-            return first, self.stop
-        return first, self._end(first, t_end)
+        first = self.start if self.last is None else max(t_end - self.last, start)
+        return first, self.stop if self.stop < math.inf else self._end(first, t_end)
 
     def _end(self, first: float, t_end: float) -> float:
         return t_end
@@ -138,24 +126,14 @@ class Window(Span):
     @property
     def count(self) -> int:
         """Number of samples, before they are combined to an envelope."""
-        return math.floor(self.last_sample) + 1
-
-    @property
-    def last_sample(self) -> float:
-        """Index of the last sample, from 0 on, before rounding down; infinite beyond the range of
-        floats."""
-        return (self.stop - self.start) * self.rate * (1 + 1e-15) + 1e-9
+        return self._times(self.start, self.stop).number
 
     def grid(self, p: Parameters, start: float, t_end: float) -> SampleTimes:
         """When samples are taken in a run of the case from ``start`` to ``t_end``, s."""
-        interval = min(1 / self.rate, sys.float_info.max)
-        skipped = max(0.0, (start - self.start) * self.rate - 1e-9)
-        reached = min(self.last_sample, (t_end - self.start) * self.rate + 1e-9)
-        if not skipped <= reached < math.inf:
-            return SampleTimes(start, interval, 0, self.theta, t_end)
-        index = math.ceil(skipped)
-        count = math.floor(reached) - index + 1
-        return SampleTimes(self.start + index * interval, interval, count, self.theta, t_end)
+        return self._times(max(self.start, start), min(self.stop, t_end))._replace(end=t_end)
+
+    def _times(self, begin: float, end: float) -> SampleTimes:
+        return _sample_times(self.start, 1 / self.rate, (begin, end), self.theta, end)
 
 
 class Poincare(Interval):
@@ -171,59 +149,35 @@ class Poincare(Interval):
     """
 
     start: Time = 0.0
-    stop: Annotated[Real, Field(gt=0), Unit("s")] = math.inf
+    stop: Stop = math.inf
     theta: Angle = 1.0
 
     def grid(self, p: Parameters, start: float, t_end: float) -> SampleTimes:
         """When samples are taken, as of a `Window`; never if the drive rests."""
         if p.Omega == 0:
             return SampleTimes(0.0, 1.0, 0, self.theta, t_end)
-        interval = min(2 * math.pi / p.Omega, sys.float_info.max)
-        index = math.ceil(max(self.start, start) / interval - 1e-9)
-        last = math.floor(min(self.stop, t_end) / interval + 1e-9)
-        count = max(0, last - index + 1)
-        return SampleTimes(index * interval, interval, count, self.theta, t_end)
+        span = (max(self.start, start), min(self.stop, t_end))
+        return _sample_times(0.0, math.tau / p.Omega, span, self.theta, t_end)
 
 
 Windows = Mapping[str, Window | Poincare]  # samples to keep, by their names
-ROUNDING = 1e-9  # of a time at the end of a run, relative
-NAME = re.compile(r"\w([^/\x00-\x1f]{0,58}[^/\s])?")
-"""Name of a window, which is that of a group in files."""
 
 
-def resolved_windows(windows: object, start: float, t_end: float) -> Windows:
+def resolved_windows(windows: Windows, start: float, t_end: float) -> Windows:
     """Windows by name with absolute times, for a run from ``start`` to ``t_end``, by
-    `Span.resolved`. Each becomes a group of a file, beside others. One may end before the run
-    starts, as parts of a run may share windows, but not begin after its end. Raises
-    `ParameterError`."""
-    rule = "must be windows by name, such as {'late': Window(last=1, rate=1000)}"
-    require((isinstance(windows, Mapping), "windows", windows, rule))
+    `Span.resolved`. One may end before the run starts, as parts of a run may share windows, but not
+    begin after its end. Raises `ParameterError`."""
     resolved: dict[str, Window | Poincare] = {}
-    for name, window in dict(windows).items():  # type: ignore[call-overload]
+    for name, window in windows.items():
         path = f"windows.{name}"
-        named = isinstance(name, str) and NAME.fullmatch(name) is not None
-        rule = "the name of a window must begin with a letter, a digit or _, and have at most 60 characters and no /"
-        require(
-            (named, "windows", name, rule),
-            (isinstance(window, Window | Poincare), path, window, "must be a Window, or Poincare"),
-        )
-        if name in BESIDE_WINDOWS:
-            rule = f"the name of a window {rule_of_taken(name)}"
-            raise ParameterError(Fault.of(("windows",), name, rule))
         length = getattr(window, "last", None) or 0.0
-        try:
-            require(
-                (window.start <= t_end, "start", window.start, f"must be <= {as_text(t_end)}, where the run ends"),
-                (t_end - length >= start - ROUNDING * t_end, "last", length,
-                 f"must be <= {as_text(t_end - start)} s, the length of the run"),
-            )  # fmt: skip
-            resolved[name] = window
-            if isinstance(window, Window):
-                resolved[name] = window.resolved(start, t_end)
-        except ParameterError as error:
-            raise ParameterError(
-                *(fault.inside(("windows", name)) for fault in error.faults)
-            ) from None
+        begins = window.start <= t_end and (window.start, window.stop) != (t_end, math.inf)
+        require(
+            (begins, f"{path}.start", window.start, f"must be <= {as_text(t_end)}, where the run ends"),
+            (t_end - length >= start - ROUNDING * t_end, f"{path}.last", length,
+             f"must be <= {as_text(t_end - start)} s, the length of the run"),
+        )  # fmt: skip
+        resolved[name] = window.resolved(start, t_end) if isinstance(window, Window) else window
     return resolved
 
 
@@ -249,8 +203,8 @@ class Ramp(Interval):
     >>> import disc_model as dm
     >>> stop = dm.Ramp(parameter="Omega", to=5, start=1, end=4)
     >>> braked = dm.simulate(dm.Parameters(N=385, Omega=15.1), 5, ramps=stop)
-    >>> braked.value_at("Omega", [0.5, 2.5, 5]).round(3)
-    array([15.1 , 10.05,  5.  ])
+    >>> round(braked.final_state.drive_angle, 3)  # 15.1 + 3 * 10.05 + 5 rad
+    50.25
 
     A brake stop, after which friction holds the slider:
 
@@ -291,22 +245,16 @@ class Piece(NamedTuple):
         return self.angle + (self.Omega + 0.5 * self.Omega_rate * since) * since
 
 
-def ramp_faults(p: Parameters, ramps: object, poincare: bool) -> Iterator[Fault]:
+def ramp_faults(p: Parameters, ramps: Sequence[Ramp], poincare: bool) -> Iterator[Fault]:
     """Faults of the ramps of a case; ``poincare``: whether samples at the drive's period are
     requested."""
-    if not isinstance(ramps, tuple) or not all(isinstance(ramp, Ramp) for ramp in ramps):
-        yield Fault(("ramps",), as_text(ramps), "must be a Ramp or a tuple of them")
-        return
     if ramps and not p.N > 0:
         yield Fault.of(("N",), p.N, "must be > 0 where there are ramps")
-    for name in RAMPED:
-        of_name = [
-            (ramp.start, i, ramp.end) for i, ramp in enumerate(ramps) if ramp.parameter == name
-        ]
-        for (_, _, end), (start, i, _) in pairwise(sorted(of_name)):
-            if start < end:
-                rule = f"must be >= {as_text(end)}, where the ramp of {name} before it ends"
-                yield Fault.of(("ramps", str(i), "start"), start, rule)
+    order = sorted(enumerate(ramps), key=lambda pair: (pair[1].parameter, pair[1].start))
+    for (_, before), (i, ramp) in pairwise(order):
+        if before.parameter == ramp.parameter and ramp.start < before.end:
+            rule = f"must be >= {as_text(before.end)}, where the ramp of {ramp.parameter} before it ends"
+            yield Fault.of(("ramps", str(i), "start"), ramp.start, rule)
     if poincare and any(ramp.parameter == "Omega" for ramp in ramps):
         rule = "must not be asked for on ramps of Omega: the drive has no period there"
         yield Fault(("record", "poincare"), "", rule)
@@ -315,18 +263,14 @@ def ramp_faults(p: Parameters, ramps: object, poincare: bool) -> Iterator[Fault]
 def pieces(p: Parameters, ramps: Sequence[Ramp]) -> tuple[Piece, ...]:
     """The intervals of constant rates, in order, the first before any ramp; ramps to the present
     value do not count."""
-    steady = Piece(-math.inf, math.inf, 0.0, p.Omega, 0.0, p.N, 0.0)
-    if not ramps:  # as in most cases, which are short
-        return (steady,)
     lines = {name: line(p, ramps, name) for name in RAMPED}
-    knots = [*sorted({time for knots in lines.values() for time, _, _ in knots[1:]}), math.inf]
-    parts = [steady._replace(end=knots[0])]
-    angle = p.Omega * knots[0]
-    for begin, end in pairwise(knots):
+    knots = {time for knots in lines.values() for time, _, _ in knots}
+    parts: list[Piece] = []
+    angle = 0.0
+    for begin, end in pairwise([*sorted(knots), math.inf]):
         (Omega, Omega_rate), (N, N_rate) = (_at(lines[name], begin) for name in RAMPED)
         parts.append(Piece(begin, end, angle, Omega, Omega_rate, N, N_rate))
-        if end < math.inf:
-            angle = parts[-1].angle_at(end)
+        angle = parts[-1].angle_at(end)
     return tuple(parts)
 
 
@@ -336,7 +280,7 @@ def angle_of_drive(intervals: Sequence[Piece], time: float) -> float:
     return now.angle_at(time)
 
 
-def line(p: Parameters, ramps: Iterable[Ramp], name: str) -> list[tuple[float, float, float]]:
+def line(p: Parameters, ramps: Sequence[Ramp], name: str) -> list[tuple[float, float, float]]:
     """Times at which the rate of Omega or N changes, with value and rate from then on; the first
     time is -inf."""
     value = getattr(p, name)
@@ -387,19 +331,6 @@ class Prerun(Strict):
         return {name: getattr(checked, name) for name in values}
 
 
-def _without_keys_of_studies(kick: Any) -> Any:
-    """Perturbations by name; raises `ParameterError` for what a study file has around them."""
-    if isinstance(kick, Mapping):
-        rule = "is a key of study files."
-        forms = {
-            "perturbation": "",
-            "prerun": " In functions it is initial_state(case, prerun=...)",
-        }
-        known = [name for name in forms if name in kick]
-        raise_faults([Fault((name,), "", rule + forms[name]) for name in known])
-    return kick
-
-
 class Start(Strict):
     """The state from which a motion starts: the static start, unless one of these keys is given.
 
@@ -413,7 +344,6 @@ class Start(Strict):
     )
     perturbation: Annotated[
         dict[Literal["u", "u_velocity", "f"], Finite],
-        BeforeValidator(_without_keys_of_studies),
         Unit({"u": "m", "u_velocity": "m/s", "f": "rad/s"}),
     ] = Field({}, description="what is added to coordinates of the start, u, u_velocity or f")
 
@@ -433,7 +363,6 @@ class CaseSpec(Strict):
     events: tuple[float, float] | Span | None = (
         None  # a span if it counts back from where the run stops
     )
-    audit_every_step: bool = False
     start: Start = Start()
     ramps: tuple[Ramp, ...] = ()
     format: Literal[1] = FORMAT
@@ -441,21 +370,15 @@ class CaseSpec(Strict):
     @property
     def sections(self) -> dict[str, Window | Poincare]:
         """Windows by name, and the Poincare section as ``poincare``, if it is recorded."""
-        return {
-            **dict(self.windows),
-            **({} if self.poincare is None else {"poincare": self.poincare}),
-        }
+        sections: dict[str, Window | Poincare] = dict(self.windows)
+        if self.poincare is not None:
+            sections["poincare"] = self.poincare
+        return sections
 
     @property
-    def longest_sections(self) -> dict[str, Window | Poincare]:
+    def longest_sections(self) -> Windows:
         """The same, with absolute times in a run that does not stop before its end."""
-        return dict(resolved_windows(self.sections, 0.0, self.t_end))
-
-    def kept_events(self, stopped: float) -> tuple[float, float] | None:
-        """From when to when (s) events are kept in a run that stopped at a time."""
-        if isinstance(self.events, Span):
-            return self.events.ends(0.0, stopped)
-        return self.events
+        return resolved_windows(self.sections, 0.0, self.t_end)
 
     @property
     def canonical(self) -> str:
@@ -466,9 +389,7 @@ class CaseSpec(Strict):
     @property
     def beside(self) -> str:
         """JSON text of all fields but the parameters."""
-        return canonical_json(
-            {name: x for name, x in json.loads(self.canonical).items() if name != "parameters"}
-        )
+        return canonical_json(self.model_dump(exclude={"parameters"}))
 
     @property
     def key(self) -> str:
@@ -487,7 +408,6 @@ class Execution(Strict):
     ----------
     audit_every_step : whether to audit both energy balances on every step instead of every 256th
         (the run takes about ten times as long)
-    progress : function that is called repeatedly with the time reached
     max_steps : largest number of steps; None sets a generous limit from the highest frequency
 
     Examples
@@ -499,5 +419,4 @@ class Execution(Strict):
     """
 
     audit_every_step: bool = False
-    progress: Callable[[float], object] | None = None
     max_steps: Annotated[Count, Field(ge=1)] | None = None

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from disc_model.errors import DiscModelError
 from disc_model.provenance import git_commit, physics_hash, versions_text
 from disc_model.simulation.api import simulate
-from disc_model.simulation.case import CaseSpec, Execution, Start
+from disc_model.simulation.case import CaseSpec, Span, Start
 from disc_model.simulation.starts import make_initial_state
 
 if TYPE_CHECKING:
@@ -27,38 +27,31 @@ def run_case(spec: CaseSpec) -> xr.DataTree:
 
     p = spec.parameters
     try:
-        start = make_initial_state(p, spec.start, spec.tol)
         result = simulate(
             p,
             spec.t_end,
             spec.sections,
             events=spec.events is not None,
             tol=spec.tol,
-            initial_state=start,
+            initial_state=make_initial_state(p, spec.start, spec.tol),
             stop_at=spec.stop_at,
             ramps=spec.ramps,
-            execution=Execution(audit_every_step=spec.audit_every_step),
         )
     except DiscModelError as error:
         log.error("no result: %s", error)
         known = {"t_end": spec.t_end, "tol": spec.tol}
         tree = xr.DataTree(scalars_dataset(p, known, "failed", f"{type(error).__name__}: {error}"))
     else:
-        log.info(
-            "%s, first separation %s s, %s",
-            result.status.value,
-            result.first_separation,
-            result.statistics,
-        )
+        log.info("%s", result)
         tree = result.to_tree()
-        events = tree["events"].to_dataset()
-        within = slice(0)
-        span: dict[str, float] = {}
-        kept = spec.kept_events(result.final_state.time)
+        kept = spec.events
+        if isinstance(kept, Span):
+            kept = kept.ends(0.0, result.final_state.time)
         if kept is not None:
+            events = tree["events"].to_dataset()
             within = slice(*events["time"].values.searchsorted(kept))
             span = dict(zip(("kept_from", "kept_until"), kept, strict=True))
-        tree["events"].dataset = events.isel(event=within).assign_attrs(span)
+            tree["events"].dataset = events.isel(event=within).assign_attrs(span)
     if spec.start != Start():
         tree.attrs["start"] = json_attribute(spec.start.model_dump())
     tree.attrs |= {

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import math
-import os
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -12,22 +11,21 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from disc_model import errors
-from disc_model.arrays import EqualByValue
+from disc_model.arrays import Array, EqualByValue
 from disc_model.data.files import unreadable
 from disc_model.data.variables import EVENT_KINDS, PHASES, SCALARS, attributes, values_text
 from disc_model.disc.plate import mode_arrays
 from disc_model.display import Summarised, counted, drawings, number_text
 from disc_model.engine import record
 from disc_model.engine.record import EVENT_ROW
-from disc_model.errors import Fault, ParameterError, Status, require, rule_of_choice, suggestion
+from disc_model.errors import Status, require
 from disc_model.parameters import Parameters
 from disc_model.provenance import versions_text
-from disc_model.simulation.case import RAMPED, Poincare, Ramp, Window, Windows, line
-from disc_model.simulation.states import Array, State, is_finite_array
-from disc_model.units import Finite, Real, Strict, in_si, is_number, is_whole
+from disc_model.simulation.case import Poincare, Ramp, Window, Windows
+from disc_model.simulation.states import State
+from disc_model.units import Finite, Real, Strict
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -49,13 +47,7 @@ SAMPLE_ROW = record.SAMPLE_ROW[1:]
 FOLDED = ("P", "u", "w", "w_point", "psi", "psi_velocity")
 BIN_ROW = ("time", *(f"{name}_{end}" for name in FOLDED for end in ("min", "max")))
 """Columns of a window with an envelope."""
-_PLAIN = (
-    "parameters", "windows", "ramps", "t_end", "tol", "status", "message", "first_separation", "u_0",
-    "versions",
-)  # fmt: skip
-"""Values of a `Result` that its files hold as they are."""
-
-
+STATES = ("final_state", "initial_state")
 CYCLES = 4  # of stick and slip that pictures show of the end of a run
 SEPARATIONS = 4 * CYCLES  # most of them that are shown of the end of a run
 SHORTEST = 0.1  # s, of the end of a run that is shown where nothing repeats within a second
@@ -125,11 +117,9 @@ class Result(Summarised, EqualByValue):
     @property
     def _event_columns(self) -> dict[str, Array]:
         """The columns of `events`, with kind and phase as in `event_rows`."""
-        return {
-            name: x
-            for name, x in zip(EVENT_ROW, self.event_rows.T, strict=True)
-            if name != "direction"
-        }
+        columns = dict(zip(EVENT_ROW, self.event_rows.T, strict=True))
+        del columns["direction"]
+        return columns
 
     @cached_property
     def events(self) -> pd.DataFrame:
@@ -139,12 +129,11 @@ class Result(Summarised, EqualByValue):
 
         columns: dict[str, Any] = self._event_columns
         for name, words in (("kind", EVENT_KINDS), ("phase", PHASES)):
-            columns[name] = pd.Categorical.from_codes(
-                columns[name].astype(np.int64), categories=pd.Index(list(words))
-            )
+            codes = columns[name].astype(np.int64)
+            columns[name] = pd.Categorical.from_codes(codes, pd.Index([*words]))
         table = pd.DataFrame(columns)
-        units = {name: attributes(name).get("units", "") for name in columns}
-        table.attrs["units"] = {name: unit for name, unit in units.items() if unit not in ("", "1")}
+        units = {name: attributes(name).get("units", "1") for name in columns}
+        table.attrs["units"] = {name: unit for name, unit in units.items() if unit != "1"}
         return table
 
     @cached_property
@@ -153,51 +142,35 @@ class Result(Summarised, EqualByValue):
         nan if this is not shown."""
         from disc_model.analysis.classify import settled_since
 
-        sections = [name for name, kept in self.windows.items() if isinstance(kept, Poincare)]
-        section = self.samples[sections[0]] if sections else {"time": np.zeros(0)}
-        if not section["time"].size:
-            return math.nan
         bins = (samples for samples in self.samples.values() if "w_point_min" in samples)
-        return settled_since(section, next(bins, None))
+        for section in self._sections:
+            return settled_since(self.samples[section], next(bins, None))
+        return math.nan
 
-    def value_at(self, name: str, times: ArrayLike) -> Array:
-        """Values of Omega (rad/s) or N (N) at given times (s), ramps included, in an array of the
-        shape of `times`.
-
-        Raises
-        ------
-        ParameterError
-            If the name is another one, or a time is not a finite number.
-        """
-        seconds = in_si(times, "s", [], ())
-        require(
-            (isinstance(name, str) and name in RAMPED, "name", name, rule_of_choice(RAMPED)),
-            (is_finite_array(seconds, flat=False), "times", times, "must be finite numbers"),
-        )
-        knots, values, _ = zip(*line(self.parameters, self.ramps, name), strict=True)
-        return np.asarray(np.interp(np.asarray(seconds, dtype=float), knots, values))
+    @property
+    def _sections(self) -> list[str]:
+        """Names of each `Poincare` that has samples."""
+        return [
+            name
+            for name, kept in self.windows.items()
+            if isinstance(kept, Poincare) and len(self.samples[name]["time"])
+        ]
 
     def __getitem__(self, name: str) -> xr.Dataset:
         """The samples of a window along `time`, with units and the parameters of the case, by the
         window's name; raises `ParameterError`."""
         from disc_model.data.columns import series_dataset
 
-        if not isinstance(name, str) or name not in self.samples:
-            raise ParameterError(
-                Fault.of(("name",), name, f"no such window{suggestion(name, self.samples)}")
-            )
+        rule = f"must be one of the windows: {', '.join(self.samples)}"
+        require((name in self.samples, "name", name, rule))
         samples = series_dataset(self.samples[name], "time")
         case = self.parameters.canonical_json
         angle = self.windows[name].theta
         return samples.assign_attrs(parameters=case, theta=angle, theta_units="rad")
 
     def to_tree(self) -> xr.DataTree:
-        """Return the result in the layout of files, with CF attributes; see
-        `disc_model.data.dataset`.
-
-        Its root holds the scalars, and its groups are "events" (along `event`), and each window
-        (along `time`).
-        """
+        """Return the result in the layout of files, with CF attributes: its root holds the scalars, and
+        its groups are "events" (along `event`), and each window (along `time`)."""
         import xarray as xr
 
         from disc_model.data.columns import scalars_dataset, series_dataset
@@ -209,10 +182,8 @@ class Result(Summarised, EqualByValue):
             scalars.attrs["ramps"] = json.dumps([ramp.model_dump() for ramp in self.ramps])
         events = series_dataset(self._event_columns, "event")
         events.attrs["parameters"] = self.parameters.canonical_json
-        groups = {"/": scalars, "events": events}
-        for name in self.samples:
-            groups[name] = self[name]
-        return xr.DataTree.from_dict(groups)
+        windows = {name: self[name] for name in self.samples}
+        return xr.DataTree.from_dict({"/": scalars, "events": events, **windows})
 
     def scalars(self) -> dict[str, float]:
         """Values of `disc_model.data.variables.SCALARS` that need no samples, but for the status."""
@@ -247,21 +218,16 @@ class Result(Summarised, EqualByValue):
         """
         from disc_model.data import tables
 
-        columns = {"events": dict(zip(EVENT_ROW, self.event_rows.T, strict=True))}
-        described: dict[str, Any] = {name: getattr(self, name) for name in _PLAIN}
-        motion = {name: x for name, x in self.statistics.items() if name != "wall_time"}
-        for which in ("final_state", "initial_state"):
-            state = getattr(self, which)
-            described[which] = None
-            if state is not None:
-                values = vars(state).items()
-                arrays = {name: x for name, x in values if isinstance(x, np.ndarray)}
-                columns[which] = arrays
-                described[which] = {name: x for name, x in values if name not in arrays}
-        header = Header(**described, statistics=motion)
-        tables.save_tables(
-            columns | {**self.samples}, header.model_dump_json(), path, self.to_tree()
-        )
+        columns = {"events": dict(zip(EVENT_ROW, self.event_rows.T, strict=True)), **self.samples}
+        described: dict[str, Any] = {x: getattr(self, x) for x in Header.model_fields}
+        described["statistics"] = self._compared()["statistics"]
+        for which in STATES:
+            if described[which] is not None:
+                values = vars(described[which]).items()
+                columns[which] = {name: x for name, x in values if isinstance(x, np.ndarray)}
+                described[which] = {name: x for name, x in values if name not in columns[which]}
+        text = Header(**described).model_dump_json()
+        tables.save_tables(columns, text, path, self.to_tree())
 
     def to_csv(self, path: str | Path) -> None:
         """Write the events and the samples of each window as tables of text.
@@ -273,8 +239,6 @@ class Result(Summarised, EqualByValue):
 
         Raises
         ------
-        ParameterError
-            If `path` is no path.
         OSError
             If there can be no such folder, or a file cannot be written.
 
@@ -289,8 +253,6 @@ class Result(Summarised, EqualByValue):
         from disc_model.data.coded import table_of
         from disc_model.data.columns import series_dataset
 
-        is_path = isinstance(path, str | os.PathLike)
-        require((is_path, "path", str(path), "must be the name of a folder"))
         folder = Path(path)
         folder.mkdir(parents=True, exist_ok=True)
         events = series_dataset(self._event_columns, "event")
@@ -319,7 +281,7 @@ class Result(Summarised, EqualByValue):
         require((whole, "path", str(path), "must be a file written by Result.save"))
         try:
             fields = dict(Header.model_validate_json(text))
-            for which in ("final_state", "initial_state"):
+            for which in STATES:
                 if fields[which] is not None:
                     stored = fields[which] | columns.pop(which)
                     fields[which] = State(**stored | {"_roots": tuple(stored["_roots"])})
@@ -344,22 +306,14 @@ class Result(Summarised, EqualByValue):
 
     def _summary(self) -> Iterator[tuple[str, object]]:
         s = self.statistics
-        reached = float(self.final_state.time)
         yield "case", values_text(dict(self.parameters))
-        ramps = (f"{x.parameter} to {x.to:g} from {x.start:g} to {x.end:g} s" for x in self.ramps)
-        yield "ramps", ", ".join(ramps)
         yield "status", self.message or self.status.value
         yield "advice", "" if self.status.complete else self.status.advice
-        yield "time reached", f"{reached:.9g} s of {self.t_end:g} s"
         yield "first separation", number_text(self.first_separation, "s", 9) or "none"
-        yield "events", s["n_events"]
         for phase in PHASES:
-            share = s[f"time_{phase}"] / (reached or 1.0)
-            yield f"time in {phase}", f"{s[f'time_{phase}']:.6g} s ({share:.2%})"
-        yield "steps", s["steps"]
-        audited = f"largest of {s['audited_steps']} steps, relative"
-        yield "energy residual", f"{s['energy_residual']:.2e} ({audited})"
-        yield "windows", ", ".join(self.samples)
+            yield f"time in {phase}", f"{s[f'time_{phase}']:.6g} s"
+        for name in ("n_events", "steps", "energy_residual"):
+            yield name.replace("n_", "").replace("_", " "), f"{s[name]:.7g}"
 
     def raise_for_status(self) -> Result:
         """Return self if the run is complete; otherwise raise its `SimulationError`."""
@@ -413,16 +367,10 @@ class Result(Summarised, EqualByValue):
         """
         pictures = drawings()
         if windows is None:
-            names = ["end"]
-            if self._span > 1.5 * self._last_cycles:
-                names = ["run", "end"]
+            names = ["run", "end"] if self._span > 1.5 * self._last_cycles else ["end"]
             return pictures.history(self._again(*names), names, variables, units)
-        # what is no text and cannot be iterated is refused by its name
-        several = np.iterable(windows) and not isinstance(windows, str)
-        names = [windows]  # type: ignore[list-item]
-        if several:
-            names = list(windows)
-        return pictures.history(self.to_tree(), names, variables, units)
+        several = [windows] if isinstance(windows, str) else windows
+        return pictures.history(self.to_tree(), several, variables, units)
 
     def plot_phase_portrait(
         self,
@@ -497,13 +445,8 @@ class Result(Summarised, EqualByValue):
         >>> run.plot_poincare("late").shape
         (2,)
         """
-        sections = [
-            name
-            for name, kept in self.windows.items()
-            if isinstance(kept, Poincare) and len(self.samples[name]["time"])
-        ]
-        rule = f"must be a recorded Poincare with samples{suggestion(window, sections)}"
-        require((window is None or window in sections, "window", window, rule))
+        rule = f"must be a recorded Poincare with samples: {', '.join(self._sections)}"
+        require((window is None or window in self._sections, "window", window, rule))
         pictures = drawings()
         case, name = self._shown(window, "poincare")
         return pictures.poincare(case, name, units)
@@ -523,7 +466,7 @@ class Result(Summarised, EqualByValue):
         ----------
         path : file to write, such as ``cycle.gif``, or ``cycle.mp4`` by ffmpeg; None writes nothing
         window : name of a recorded window; otherwise the last cycles
-        frames, fps : number of pictures, and how many are shown in a second
+        frames, fps : number of pictures, and of those shown in a second
 
         Returns
         -------
@@ -532,7 +475,7 @@ class Result(Summarised, EqualByValue):
         Raises
         ------
         ParameterError
-            If an argument breaks a rule, or the file has another suffix or no folder.
+            If the file has another suffix or no folder.
 
         Examples
         --------
@@ -543,15 +486,10 @@ class Result(Summarised, EqualByValue):
 
         pictures = drawings()
         # what cannot be written is refused before anything is computed
-        is_path = path is None or isinstance(path, str | Path)
-        file = Path(path or "film.gif") if is_path else Path()
-        suffix = "must end in .gif or .mp4; a window is given by window="
-        require(
-            (is_whole(frames) and frames >= 1, "frames", frames, "must be a whole number >= 1"),
-            (is_number(fps) and fps > 0, "fps", fps, "must be a number > 0"),
-            (file.suffix in (".gif", ".mp4"), "path", str(path), suffix),
-            (file.absolute().parent.is_dir(), "path", str(path), "must be in a folder that exists"),
-        )
+        file = Path(path or "film.gif")
+        known = file.suffix in (".gif", ".mp4") and file.absolute().parent.is_dir()
+        rule = "must end in .gif or .mp4, in a folder that exists; a window is given by window="
+        require((known, "path", str(path), rule))
         case, name = self._shown(window, "end")
         time = pictures.window_of(case, name)["time"]
         states = snapshots(
@@ -563,9 +501,8 @@ class Result(Summarised, EqualByValue):
         )
         made = pictures.film(self.parameters, states, case, name)
         if path is not None:
-            made.save(
-                path, writer="pillow" if file.suffix == ".gif" else "ffmpeg", fps=fps, dpi=100
-            )
+            writer = "pillow" if file.suffix == ".gif" else "ffmpeg"
+            made.save(path, writer=writer, fps=fps, dpi=100)
         return made
 
     def _shown(self, window: str | None, otherwise: str) -> tuple[xr.DataTree, str]:
@@ -585,14 +522,10 @@ class Result(Summarised, EqualByValue):
         """The length of the last cycles of the run, s: from a release of stick on."""
         end = float(self.final_state.time)
         lengths = [self._span]
-        for kind, number in (("stick_to_slip", CYCLES), ("separation", SEPARATIONS)):
-            times = self.events["time"][self.events["kind"] == kind].to_numpy()
-            length = SHORTEST
-            if len(times) > number:
-                length = end - float(times[-1 - number])
-            if length >= 1.0:
-                length = SHORTEST
-            lengths.append(length)
+        for kind, number in ((record.STICK_TO_SLIP, CYCLES), (record.LOSS_OF_CONTACT, SEPARATIONS)):
+            times = self.event_rows[self.event_rows[:, 1] == kind, 0]
+            length = end - float(times[-1 - number]) if len(times) > number else SHORTEST
+            lengths.append(length if length < 1.0 else SHORTEST)
         return min(lengths)
 
     def _again(self, *names: str) -> xr.DataTree:

@@ -5,25 +5,27 @@ from __future__ import annotations
 import math
 import time as clock
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import Annotated, Any, Literal, Self
 
 import numpy as np
+from pydantic import AfterValidator, BeforeValidator, InstanceOf, StrictBool, model_validator
 
 from disc_model.arrays import Array
-from disc_model.data.variables import PHASES
+from disc_model.data.variables import BESIDE_WINDOWS, PHASES, rule_of_taken
 from disc_model.engine import audit, loop, record, transitions
 from disc_model.engine import state as motion
 from disc_model.engine.jit import compiled_for
 from disc_model.engine.jit.cache import compiling
 from disc_model.engine.model import blocks_of, flags_of, on_ramp, slope_under_slider
 from disc_model.engine.stick_modes import LONGEST_STICK
-from disc_model.errors import Fault, ParameterError, Status
+from disc_model.errors import Fault, ParameterError, Status, require
 from disc_model.parameters import Parameters
 from disc_model.provenance import content_key
 from disc_model.simulation import states
-from disc_model.simulation.case import Execution, Ramp, SampleTimes, Windows, angle_of_drive, pieces
+from disc_model.simulation.case import Execution, Poincare, Ramp, Window, angle_of_drive, pieces
 from disc_model.simulation.result import BIN_ROW, FOLDED, SAMPLE_ROW, Result
 from disc_model.simulation.states import State
+from disc_model.units import Seconds, Strict, Tolerance
 
 MOST_STEPS = 2**62  # largest number of steps that the engine can count
 # steps between two pauses of the engine where a step is cheapest: about 0.1 s of work
@@ -44,10 +46,6 @@ _STATUS = {
     transitions.STALLED: Status.STALLED,
     transitions.NON_FINITE: Status.NON_FINITE,
 }
-STATISTICS = (
-    "steps", "n_events", "n_separations", "time_stick", "time_slip", "time_separation", "energy_residual",
-    "energy_residual_transverse", "energy_residual_inplane", "audited_steps", "surface_speed", "wall_time",
-)  # fmt: skip
 BALANCES = {
     "transverse": (audit.TRANSVERSE, audit.TRANSVERSE_SCALE, audit.TRANSVERSE_TURNOVER),
     "inplane": (audit.INPLANE, audit.INPLANE_SCALE, audit.INPLANE_TURNOVER),
@@ -57,46 +55,55 @@ BALANCES = {
 _ENGINES: dict[tuple[Any, ...], Callable[..., int]] = {}
 
 
-class Request(NamedTuple):
-    """What a run is to compute. Every value obeys the rules of `disc_model.simulate`.
+def _window_name(name: str) -> str:
+    """The name of a window, which is that of a group in files."""
+    long = 0 < len(name) <= 60 and name == name.strip()
+    if not long or not (name[0].isalnum() or name[0] == "_") or "/" in name:
+        rule = "the name of a window must begin with a letter, a digit or _, and have at most 60 characters and no /"
+        raise ValueError(rule)
+    if name in BESIDE_WINDOWS:
+        raise ValueError(f"the name of a window {rule_of_taken(name)}")
+    return name
 
-    Attributes
-    ----------
-    parameters : the case
-    start, t_end : s, absolute times of the run's first and last instant
-    tol : expected error of event times after one second of motion, s, which the series can use
-    windows : samples to keep, by name, with absolute times
-    events : whether to keep the table of events
-    initial_state : state at ``start``; None is the static start
-    stop_at : None, or "first_separation"
-    ramps : slow changes of Omega or N
-    execution : how the run is carried out
-    """
 
-    parameters: Parameters
-    start: float
-    t_end: float
-    tol: float
-    windows: Windows
-    events: bool
-    initial_state: State | None
-    stop_at: str | None
-    ramps: tuple[Ramp, ...]
-    execution: Execution
+class Request(Strict):
+    """What a run is asked for: the arguments of `disc_model.simulate`, checked."""
+
+    case: InstanceOf[Parameters]
+    t_end: Seconds | None
+    windows: dict[
+        Annotated[str, AfterValidator(_window_name)], InstanceOf[Window] | InstanceOf[Poincare]
+    ]
+    duration: Seconds | None
+    events: StrictBool
+    tol: Tolerance
+    initial_state: InstanceOf[State] | None
+    stop_at: Literal["first_separation"] | None
+    ramps: Annotated[
+        tuple[InstanceOf[Ramp], ...],
+        BeforeValidator(lambda ramps: (ramps,) if isinstance(ramps, Ramp) else ramps),
+    ]
+    execution: InstanceOf[Execution]
+
+    @model_validator(mode="after")
+    def _one_end(self) -> Self:
+        rule = "is required, or duration instead of it, and not both"
+        require(((self.t_end is None) != (self.duration is None), "t_end", self.t_end, rule))
+        return self
 
 
 class Run:
-    """One run: its request, the engine's arrays, and the buffers that collect rows."""
+    """One run: its request, with absolute times, the engine's arrays, and the buffers that collect rows."""
 
-    def __init__(self, request: Request) -> None:
-        p = request.parameters
+    def __init__(self, request: Request, start: float) -> None:
+        assert request.t_end is not None
         self.request = request
-        self.case = states.engine_case(p)
+        self.t_end = request.t_end
+        self.case = states.engine_case(request.case)
         self.key = self.case.key
         if request.ramps:
             self.key = content_key(self.case.key + repr(request.ramps))
-        self.compliant = p.contact_compliance != 0
-        self.pieces = pieces(p, request.ramps)
+        self.pieces = pieces(request.case, request.ramps)
         self.wall_time = 0.0
 
         # the engine's arrays, at the initial state
@@ -106,35 +113,33 @@ class Run:
         at_switch = initial is not None and states.write_state(
             self.case, initial, self.state, self.key, is_start=True
         )
-        start = self.time
 
         # of the drive over its angle by this run's Omega and ramps alone, after another history
         self.lead = 0.0
         if initial is not None and initial.drive_angle is not None:
             self.lead = float(initial.drive_angle) - angle_of_drive(self.pieces, start)
-        self.limits = self._first_limits(order)
+        self.limits = self._first_limits(order, start)
         self.first_separation = math.nan  # s
         self.events: list[Array] = []
         self.samples: dict[str, Samples] = {}
-        self.buffers = self._new_buffers()
+        self.buffers = self._new_buffers(start)
 
         # in reverse order, so that the first piece is current at the end; compiling here keeps it
         # out of the wall time
         for index, piece in reversed(tuple(enumerate(self.pieces))):
-            if start < piece.end and piece.begin < request.t_end:
+            if start < piece.end and piece.begin < self.t_end:
                 self._enter(index)
         if at_switch:
             self._begin_at_switch()
 
-    def _new_buffers(self) -> record.RunBuffers:
-        """Return the buffers of the engine for the windows of the request, from the time of the state on."""
-        request = self.request
+    def _new_buffers(self, start: float) -> record.RunBuffers:
+        """Return the buffers of the engine for the windows of the request."""
         # the engine pauses between steps only, so one step's samples must fit above ``capacity``
-        longest = LONGEST_STICK * self.case.model.unit + record.SAME_INSTANT * request.t_end
+        longest = LONGEST_STICK * self.case.model.unit + record.SAME_INSTANT * self.t_end
         per_step = 0
-        grids: list[SampleTimes] = []
-        for name, window in request.windows.items():
-            grid = window.grid(request.parameters, self.time, request.t_end)
+        grids = []
+        for name, window in self.request.windows.items():
+            grid = window.grid(self.request.case, start, self.t_end)
             # the engine knows the angle without the lead
             grids.append(grid._replace(theta=grid.theta - self.lead))
             per_step += 1 + math.ceil(min(longest / grid.interval, grid.number))
@@ -142,9 +147,7 @@ class Run:
                 self.samples[name] = Samples(grid.number, getattr(window, "envelope", None) or 1)
             except (MemoryError, ValueError) as error:
                 raise ParameterError(Fault(("windows", name), "", f"{error}: too many")) from None
-        capacity = 0
-        if grids:
-            capacity = BUFFER
+        capacity = BUFFER if grids else 0
         return record.RunBuffers(
             np.zeros(record.N_COUNTERS, np.int64),
             np.zeros(3),
@@ -156,7 +159,7 @@ class Run:
             np.empty((EVENT_BUFFER, len(record.EVENT_ROW))),
         )
 
-    def _first_limits(self, order: int) -> loop.Limits:
+    def _first_limits(self, order: int, start: float) -> loop.Limits:
         """Return the limits of the engine for series of an order, to the end of the run."""
         request = self.request
         model = self.case.model
@@ -164,28 +167,23 @@ class Run:
         most: float | None = execution.max_steps
         if most is None:
             # twenty for each radian of the highest mode, far more than any published case takes
-            most = 10_000 + 20 * (request.t_end - self.time) / model.unit
+            most = 10_000 + 20 * (self.t_end - start) / model.unit
 
         stops = any(ramp.parameter == "Omega" and ramp.to == 0 for ramp in request.ramps)
-        tolerance = states.series_tolerance(request.tol, self.compliant)
-        if stops:
-            tolerance /= STOPPING
+        compliant = request.case.contact_compliance != 0
+        tolerance = states.series_tolerance(request.tol, compliant) / (STOPPING if stops else 1.0)
 
-        # pauses serve progress and Ctrl-C; there are fewer steps between them where a step costs
+        # pauses serve Ctrl-C; there are fewer steps between them where a step costs
         # more. A compliant contact takes about four times as many steps per second
-        step_cost = blocks_of(model)
-        audit_interval = 256
-        if execution.audit_every_step:
-            step_cost *= 6
-            audit_interval = 1
+        step_cost = blocks_of(model) * (6 if execution.audit_every_step else 1)
         return loop.Limits(
             order=order,
             tolerance=tolerance,
-            t_end=request.t_end,
+            t_end=self.t_end,
             may_separate=request.stop_at is None,
             max_steps=int(min(most, MOST_STEPS)),
             pause_after=max(1, STEPS_PER_PAUSE // step_cost),
-            audit_every=audit_interval,
+            audit_every=1 if execution.audit_every_step else 256,
         )
 
     def _enter(self, index: int) -> None:
@@ -194,8 +192,7 @@ class Run:
         self.index = index
         self.model = self.case.model
         kind = self.case.kind
-        if self.request.ramps:
-            self.limits = self.limits._replace(t_end=min(self.request.t_end, piece.end))
+        self.limits = self.limits._replace(t_end=min(self.t_end, piece.end))
         if index > 0:  # the first piece has the Omega and N of the case
             rates = {name: getattr(piece, name) for name in ("Omega", "Omega_rate", "N", "N_rate")}
             self.model = on_ramp(self.model, piece.begin, piece.angle, **rates)
@@ -219,13 +216,10 @@ class Run:
             sums.fill(0)
 
     def complete(self) -> Result:
-        """Compute to the end, and tell the progress."""
-        tell = self.request.execution.progress or (lambda _: None)
+        """Compute to the end."""
         code = self.advance()
         while code == transitions.PAUSED:
-            tell(self.time)
             code = self.advance()
-        tell(self.time)
         return self.result(_STATUS[code])
 
     @property
@@ -238,7 +232,7 @@ class Run:
         code."""
         began = clock.perf_counter()
         code = self.engine(*self._arguments())
-        if code == transitions.TIME_OVER and self.limits.t_end < self.request.t_end:
+        if code == transitions.TIME_OVER and self.limits.t_end < self.t_end:
             self._enter(self.index + 1)
             code = transitions.PAUSED
         self._drain()
@@ -256,40 +250,33 @@ class Run:
         counters[record.EVENT_ROWS] = counters[record.SAMPLE_ROWS] = 0
         if counters[record.SEPARATIONS] > 0 and math.isnan(self.first_separation):
             self.first_separation = events[events[:, 1] == record.LOSS_OF_CONTACT][0, 0].item()
-        if not self.request.events:
-            events = events[:0]
-        self.events.append(events.copy())
+        self.events.append(events.copy() if self.request.events else events[:0])
         for i, samples in enumerate(self.samples.values()):
-            new = rows[rows[:, 0] == i]
-            if len(new):
-                samples.add(new)
+            samples.add(rows[rows[:, 0] == i, 1:])
 
     def result(self, status: Status) -> Result:
         """Assemble the result of the run, which ends here: other runs of the case may use its
         arrays."""
         request = self.request
-        final_state = states.read_state(
-            self.case,
-            self.state,
-            self.key,
-            drive_angle=angle_of_drive(self.pieces, self.time) + self.lead,
-        )
-        stopped = status is Status.OK and self._drive_stands_still()
-        if stopped and final_state.phase == "stick":
-            status = Status.AT_REST
-        message = f"{status.value}: at t = {self.time:.9g} s in {final_state.phase}"
-        message += ", the drive stands still" * stopped
+        angle = angle_of_drive(self.pieces, self.time) + self.lead
+        final_state = states.read_state(self.case, self.state, self.key, drive_angle=angle)
+        message = f"at t = {self.time:.9g} s in {final_state.phase}"
+        # the drive has stopped, and neither it nor the preload will change
+        last = self.pieces[-1]
+        if status is Status.OK and last.Omega == 0 and last.begin <= self.time:
+            message += ", the drive stands still"
+            if final_state.phase == "stick":
+                status = Status.AT_REST
         if status is Status.PARADOX:
-            end = states.read_state(self.case, self.state)
             slope = slope_under_slider(self.model, self.state)
-            message += f", psi = {end.psi:.6g} rad, f = {end.f:.6g} rad/s, slope B = {slope:.6g}"
+            message += f", psi = {final_state.psi:.6g} rad, f = {final_state.f:.6g} rad/s, slope B = {slope:.6g}"
         result = Result(
-            parameters=request.parameters,
-            t_end=request.t_end,
+            parameters=request.case,
+            t_end=self.t_end,
             tol=request.tol,
             windows=request.windows,
             status=status,
-            message=message,
+            message=f"{status.value}: {message}",
             event_rows=np.concatenate(self.events),
             first_separation=self.first_separation,
             final_state=final_state,
@@ -302,36 +289,29 @@ class Run:
         self.case.idle[self.limits.order].append((self.state, self.probe, self.series))
         return result
 
-    def _drive_stands_still(self) -> bool:
-        """Return whether the drive has stopped, and neither it nor the preload will change."""
-        last = self.pieces[-1]
-        return last.Omega == 0 and last.begin <= self.time
-
     def _statistics(self) -> dict[str, float]:
         """Return the `Result.statistics`."""
         count = self.buffers.counters.tolist()
         total = self.buffers.audit.tolist()
-        durations = zip(PHASES, self.buffers.phase_times.tolist(), strict=True)
-        statistics = dict.fromkeys(STATISTICS, math.nan)
-        statistics |= {f"time_{phase}": duration for phase, duration in durations}
-        statistics |= {
+        times = zip(PHASES, self.buffers.phase_times.tolist(), strict=True)
+        # energies, which need the sums over every step, but for the worst of the audited ones
+        every_step = self.request.execution.audit_every_step
+        residuals = {
+            f"energy_residual_{name}": abs(total[residual])
+            / (total[scale] + total[turnover] or 1.0)
+            for name, (residual, scale, turnover) in BALANCES.items()
+        }
+        return {
             "steps": count[record.STEPS],
             "n_events": count[record.EVENTS],
             "n_separations": count[record.SEPARATIONS],
+            **{f"time_{phase}": time for phase, time in times},
+            "energy_residual": total[audit.WORST] if total[audit.STEPS] else math.nan,
+            **(residuals if every_step else dict.fromkeys(residuals, math.nan)),
             "audited_steps": int(total[audit.STEPS]),
+            "surface_speed": total[audit.SURFACE] if self.model.has_moving_surface else math.nan,
             "wall_time": self.wall_time,
         }
-
-        # energies, which need the sums over every step, but for the worst of the audited ones
-        if total[audit.STEPS]:
-            statistics["energy_residual"] = total[audit.WORST]
-        if self.request.execution.audit_every_step:
-            for name, (residual, scale, turnover) in BALANCES.items():
-                size = total[scale] + total[turnover]
-                statistics[f"energy_residual_{name}"] = abs(total[residual]) / (size or 1.0)
-        if self.model.has_moving_surface:
-            statistics["surface_speed"] = total[audit.SURFACE]
-        return statistics
 
 
 class Samples:
@@ -339,34 +319,33 @@ class Samples:
     some are filled."""
 
     def __init__(self, count: int, fold: int) -> None:
-        names = BIN_ROW if fold > 1 else SAMPLE_ROW
-        self.columns = {name: np.empty(count // fold) for name in names}
+        self.names = BIN_ROW if fold > 1 else SAMPLE_ROW
+        self.columns = np.empty((len(self.names), count // fold))
         self.fold = fold
         self.filled = 0
-        self.rest = np.empty((0, len(record.SAMPLE_ROW)))  # rows of the bin that is not full
+        self.rest = np.empty((0, len(SAMPLE_ROW)))  # rows of the bin that is not full
 
     def add(self, rows: Array) -> None:
         """Take in rows of the engine in order of time."""
-        done = rows[:, 1:]
         if self.fold > 1:
             rows = np.concatenate([self.rest, rows])
             whole = len(rows) // self.fold * self.fold
             self.rest = rows[whole:]
-            done = _fold(rows[:whole].reshape(-1, self.fold, rows.shape[1]))
-        for column, values in zip(self.columns.values(), done.T, strict=True):
-            column[self.filled : self.filled + len(done)] = values
-        self.filled += len(done)
+            rows = _fold(rows[:whole].reshape(-1, self.fold, len(SAMPLE_ROW)))
+        filled = self.filled + len(rows)
+        self.columns[:, self.filled : filled] = rows.T
+        self.filled = filled
 
     def arrays(self) -> dict[str, Array]:
         """What was recorded, by name."""
-        return {name: column[: self.filled] for name, column in self.columns.items()}
+        return dict(zip(self.names, self.columns[:, : self.filled], strict=True))
 
 
 def _fold(cells: Array) -> Array:
     """Rows of mean time and (min, max) of each folded column, from cells of shape (n, samples,
     columns)."""
-    folded = [cells[:, :, record.SAMPLE_ROW.index("time")].mean(axis=1)]
+    folded = [cells[:, :, SAMPLE_ROW.index("time")].mean(axis=1)]
     for name in FOLDED:
-        column = cells[:, :, record.SAMPLE_ROW.index(name)]
+        column = cells[:, :, SAMPLE_ROW.index(name)]
         folded += [column.min(axis=1), column.max(axis=1)]
     return np.stack(folded, axis=1)

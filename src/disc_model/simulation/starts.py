@@ -6,16 +6,13 @@ from collections.abc import Mapping
 from functools import lru_cache
 from typing import Any
 
-from disc_model.errors import Fault, ParameterError, raise_faults, require
+from disc_model.errors import raise_faults, require
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.simulation import states
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Start
 from disc_model.simulation.states import State
 from disc_model.units import TOLERANCES, limits_faults
-
-OF_STUDIES = {"perturbation": "start"}
-"""Argument of `initial_state` for what study files call otherwise."""
 
 
 def initial_state(
@@ -58,22 +55,9 @@ def initial_state(
     >>> print(f"{dm.simulate(case, 60).first_separation} s, {run.first_separation:.2f} s")
     nan s, 42.23 s
     """
-    faults = [*foreign_case(case), *limits_faults("tol", tol, TOLERANCES)]
-    try:
-        begin = Start.model_validate(
-            {"perturbation": {} if start is None else start, "prerun": prerun}
-        )
-    except ParameterError as error:
-        faults += [_fault_of_argument(fault) for fault in error.faults]
-    raise_faults(faults)
-    state = make_initial_state(case, begin, tol)
-    return states.static_start(case) if state is None else state
-
-
-def _fault_of_argument(fault: Fault) -> Fault:
-    """The fault of a start, as that of an argument of `initial_state`."""
-    name, *within = fault.path
-    return Fault((OF_STUDIES.get(name, name), *within), fault.value, fault.rule)
+    raise_faults([*foreign_case(case), *limits_faults("tol", tol, TOLERANCES)])
+    begin = Start.model_validate({"perturbation": start or {}, "prerun": prerun})
+    return make_initial_state(case, begin, tol) or states.static_start(case)
 
 
 def make_initial_state(p: Parameters, start: Start, tol: float) -> State | None:
@@ -83,21 +67,15 @@ def make_initial_state(p: Parameters, start: Start, tol: float) -> State | None:
     state = None
     if start.prerun is not None:
         other = p.replace(**start.prerun.parameters)
-        rules = []
         for name in ("n_diameters", "n_circles"):
-            count = getattr(other, name)
-            needed = getattr(p, name)
+            count, needed = getattr(other, name), getattr(p, name)
             path = f"start.prerun.parameters.{name}"
-            rules.append((count == needed, path, count, f"must be that of the case, {needed}"))
-        require(*rules)
+            require((count == needed, path, count, f"must be that of the case, {needed}"))
         state = states.transfer_state(p, _end_of(other, start.prerun.time, tol))
-
     kick = {name: value for name, value in start.perturbation.items() if value}
     if not kick:
         return state
-    if state is None:
-        state = states.static_start(p)
-    return states.perturb(p, state, **kick)
+    return states.perturb(p, state or states.static_start(p), **kick)
 
 
 def state_after(p: Parameters, start: Start, time: float, tol: float) -> State:

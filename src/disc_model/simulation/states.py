@@ -30,7 +30,7 @@ from disc_model.engine import state as motion
 from disc_model.engine.model import Contact, DiscModes, Model, build_model, build_state, flags_of
 from disc_model.engine.series import Series, build_series
 from disc_model.engine.state import SEPARATION, SLIP, STICK, EngineState
-from disc_model.errors import Fault, as_text, raise_faults, require, rule_of_choice, suggestion
+from disc_model.errors import as_text, raise_faults, require, rule_of_choice
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.units import in_si, is_number, is_quantity
 
@@ -101,26 +101,12 @@ class State(EqualByValue):
     _roots: tuple[int, int] = (0, 0)  # multiplicity at this instant, `engine.state.known_roots`
 
     def replace(self, **changes: Any) -> State:
-        """Return a copy with some values changed; raises `ParameterError` for names and numbers
-        that no state has.
+        """Return a copy with some values changed.
 
         A new time is exact: it sets `time_low` to 0 and `drive_angle` to None.  Any change but of
         these three separates the state from the case in which it was computed, and empties
         `case_key`.
         """
-        known = [each.name for each in dataclasses.fields(self)]
-        unknown = [name for name in changes if name not in known]
-        raise_faults(
-            [Fault((name,), "", f"is not of a state{suggestion(name, known)}") for name in unknown]
-        )
-        require(
-            *(
-                (is_finite(x), name, x, "must be finite")
-                for name, x in changes.items()
-                if name in PLAIN
-            ),
-            angle_rule(changes.get("drive_angle"), ""),
-        )
         implied: dict[str, Any] = {}
         if "time" in changes:
             implied |= {"time_low": 0.0, "drive_angle": None}
@@ -141,15 +127,13 @@ class State(EqualByValue):
 
     def slider_angle(self, case: Parameters) -> float:
         """Angle of the slider on the disc, rad, from the place where it was at the time 0: that of
-        the drive point, less psi. Raises `ParameterError` unless `case` is a `Parameters`."""
-        raise_faults(foreign_case(case))
+        the drive point, less psi."""
         drive = case.Omega * self.time if self.drive_angle is None else self.drive_angle
         return drive - self.psi
 
     def material_angle(self, case: Parameters) -> float:
         """Angle on the disc of the material point under the slider, rad, about which modal
-        coordinates are resolved: `slider_angle` less `surface_turn`. Raises `ParameterError` unless
-        `case` is a `Parameters`."""
+        coordinates are resolved: `slider_angle` less `surface_turn`."""
         return self.slider_angle(case) - self.surface_turn
 
 
@@ -179,12 +163,8 @@ def perturb(
         "f": state.f + f,
     }
     if f and state.phase != "separation":
-        rate = f
-        if state.phase == "slip":
-            rate += slip_rate(p, state)
-        changes |= {"phase": "slip", "direction": int(np.sign(rate))}
-        if rate == 0:
-            changes["phase"] = "stick"
+        rate = f + (slip_rate(p, state) if state.phase == "slip" else 0.0)
+        changes |= {"phase": "slip" if rate else "stick", "direction": int(np.sign(rate))}
     return state.replace(**changes)
 
 
@@ -195,32 +175,30 @@ def slip_rate(p: Parameters, state: State) -> float:
 
 def surface_rate(p: Parameters, state: State) -> float:
     """Speed of the disc's surface under the slider over r_0, rad/s."""
-    return float(tangential_amplitudes(p) @ state.beta) / p.r_0
+    return float(engine_case(p).surface @ state.beta)
 
 
 def transfer_state(p: Parameters, state: State) -> State:
     """A state of another case at time 0 of case `p`, with the same modal coordinates and distance
     of slider and disc, which is zero in rigid contact. A state with another number of modes is
     passed on, and `simulate` refuses it."""
-    psi = mode_arrays(p).psi
-    amplitudes = state.mode_amplitudes
-    if len(psi) != len(state.a):
+    modes = mode_arrays(p)
+    if len(modes.psi) != len(state.a):
         return state.replace(time=0.0)
-    more = np.zeros_like(psi) if amplitudes is None else psi - amplitudes
-    u = state.u + float(more @ state.a)
-    slope = float(more @ (mode_arrays(p).diameters * state.b))
-    if state.phase != "separation" and p.contact_compliance == 0:
-        u = float(psi @ state.a)
-    f = state.f
-    direction = state.direction
-    if state.phase == "stick":
-        f = surface_rate(p, state)
-    rate = f - surface_rate(p, state)
-    if state.phase == "slip" and rate:
-        direction = int(np.sign(rate))
-    velocity = state.u_velocity + float(more @ state.alpha) + rate * slope
+    known = state.mode_amplitudes
+    more = modes.psi - (modes.psi if known is None else known)
+    touches = state.phase != "separation" and p.contact_compliance == 0
+    surface = surface_rate(p, state)
+    f = surface if state.phase == "stick" else state.f
+    rate = f - surface
+    slope = more @ (modes.diameters * state.b)
     return state.replace(
-        time=0.0, f=f, direction=direction, u=u, u_velocity=velocity, mode_amplitudes=psi
+        time=0.0,
+        f=f,
+        direction=int(np.sign(rate)) if state.phase == "slip" and rate else state.direction,
+        u=modes.psi @ state.a if touches else state.u + more @ state.a,
+        u_velocity=state.u_velocity + more @ state.alpha + rate * slope,
+        mode_amplitudes=modes.psi,
     )
 
 
@@ -262,28 +240,29 @@ def deflection(
     low, high = radial_range(case)
     radii = finite_numbers(in_si(r, "m", [], ()))
     angles = finite_numbers(in_si(theta, "rad", [], ()))
-    given: list[Any] = list(states) if np.iterable(states) else [states]
-    within = radii is not None and radii.size and np.all((radii >= low) & (radii <= high))
-    rule = "must be a State with the case's modes"
+    given = [states] if isinstance(states, State) else [*states]
+    on_disc = radii is not None and bool(np.all((low <= radii) & (radii <= high)))
+    fit = all(_fits(state, modes.psi) for state in given)
     require(
-        (within, "r", r, f"must be within {as_text(low)} and {as_text(high)}"),
+        (on_disc, "r", r, f"must be within {as_text(low)} and {as_text(high)}"),
         (angles is not None, "theta", theta, "must be finite"),
-        *((_fits(x, modes.psi), f"states.{i}", x, rule) for i, x in enumerate(given)),
+        (fit, "states", states, f"must be states of the case, with {len(modes.psi)} modes"),
     )
     assert radii is not None
     assert angles is not None
-    shapes = mode_shapes(case, radii)
-    w = np.empty((len(given), len(radii), len(angles)))
-    for i, state in enumerate(given):
+
+    shapes = mode_shapes(case, radii).T
+    w = []
+    for state in given:
         turn = np.multiply.outer(modes.diameters, angles - state.material_angle(case))
-        w[i] = shapes.T @ (state.a[:, None] * np.cos(turn) + state.b[:, None] * np.sin(turn))
+        w.append(shapes @ (state.a[:, None] * np.cos(turn) + state.b[:, None] * np.sin(turn)))
     coords = {
         "time": ("time", [x.time for x in given], {"units": "s", "long_name": "time"}),
         "r": ("r", radii, {"units": "m", "long_name": "radius"}),
         "theta": ("theta", angles, {"units": "rad", "long_name": "angle fixed to the disc"}),
     }
     attrs = {"units": "m", "long_name": "displacement of the disc; from the undeformed disc"}
-    return xr.DataArray(w, coords, ("time", "r", "theta"), name="w", attrs=attrs)
+    return xr.DataArray(np.array(w), coords, ("time", "r", "theta"), name="w", attrs=attrs)
 
 
 # ---- Conversion of `Parameters` and `State` to the engine's lanes and back
@@ -308,6 +287,7 @@ class EngineCase:
     places: np.ndarray  # their indices in `EngineState.disc`
     # matrix from there to u, u' (without the slope's share), slope B and v_s / r_0 under the slider
     point: np.ndarray
+    surface: np.ndarray  # shape (n_modes,), from beta to v_s / r_0
     idle: defaultdict[
         int, list[Workspace]
     ]  # workspaces that no run uses at present, by the order of their series
@@ -345,7 +325,8 @@ def engine_case(p: Parameters) -> EngineCase:
     point = np.zeros((4, len(start.disc)))
     point[0, places[0]] = point[1, places[2]] = modes.psi
     point[2, places[1, pairs]] = (modes.diameters * modes.psi)[pairs]
-    point[3, places[3, pairs]] = tangential[pairs] / p.r_0
+    surface = tangential / p.r_0
+    point[3, places[3, pairs]] = surface[pairs]
     return EngineCase(
         key=p.key,
         model=model,
@@ -355,6 +336,7 @@ def engine_case(p: Parameters) -> EngineCase:
         present=present,
         places=places.ravel()[present],
         point=point,
+        surface=surface,
         idle=defaultdict(list),
     )
 
@@ -447,33 +429,28 @@ def _checked_gap(case: EngineCase, source: State, state: EngineState, *, is_star
     w = float(row.dot(state.disc))
     gap = source.u - w
     apart = source.phase == "separation"
-    allowed = gap > 0 or not is_start if apart else case.model.has_compliance
-    if gap == 0 or allowed:
+    if gap == 0 or (gap > 0 or not is_start if apart else case.model.has_compliance):
         return gap
+    place, room = ("at or above", INSIDE) if apart else ("at", SAME_HEIGHT)
     size = float(np.abs(row).dot(np.abs(state.disc))) + abs(source.u_velocity) * case.model.unit
-    place = "at or above" if apart else "at"
     rule = (
         f"must be {place} the disc under the slider, {w:.9g}, in {source.phase}: change a with it"
     )
-    room = SAME_HEIGHT * size
-    if apart:
-        room = INSIDE * size
-    require((abs(gap) <= room, "initial_state.u", source.u, rule))
+    require((abs(gap) <= room * size, "initial_state.u", source.u, rule))
     return gap
 
 
 def _rate_over_material(case: EngineCase, source: State) -> float:
     """The rate g of a state that `_check` has found good: 0 in stick, and where only rounding makes
     it differ from 0 or from the direction of slip."""
-    surface = _surface_rate(case, source)
+    surface = float(case.surface @ source.beta)
     rate = source.f - surface
+    if source.phase == "separation":
+        return rate
     begins = source._roots[0] > 0
     rounding = begins and abs(rate) <= SAME_SPEED * (case.model.Omega + abs(surface))
-    if source.phase == "slip" and (rounding or rate * source.direction < 0):
-        return 0.0
-    if source.phase == "stick":
-        return 0.0
-    return rate
+    against = rate * source.direction < 0
+    return 0.0 if rounding or against or source.phase == "stick" else rate
 
 
 def _forget_switch(case: EngineCase, state: EngineState) -> bool:
@@ -506,29 +483,27 @@ def _check(state: State, case: EngineCase) -> None:
     """Raise `ParameterError` if a state cannot be the initial one of a case."""
     path = "initial_state."
     count = len(case.amplitudes)
-    rule = f"must be {count} finite numbers, one per row of plate_modes"
-    known = isinstance(state.phase, str) and state.phase in PHASES
-    signed = is_number(state.direction) and (state.direction in (-1, 1) or state.phase != "slip")
+    rules = []
+    for name in MODAL:
+        values = getattr(state, name)
+        rule = f"must be {count} finite numbers, one per row of plate_modes"
+        rules.append((is_finite_array(values, count), path + name, values, rule))
+    for name in (*PLAIN, "drive_angle"):
+        value = getattr(state, name)
+        good = is_finite(value) or (value is None and name == "drive_angle")
+        rules.append((good, path + name, value, "must be a finite number"))
+    signed = state.phase != "slip" or state.direction in (-1, 1)
     require(
-        *(
-            (is_finite_array(getattr(state, x), count), path + x, getattr(state, x), rule)
-            for x in MODAL
-        ),
-        *(
-            (is_finite(getattr(state, x)), path + x, getattr(state, x), "must be finite")
-            for x in PLAIN
-        ),
-        (known, path + "phase", state.phase, rule_of_choice(PHASES)),
+        *rules,
+        (state.phase in PHASES, path + "phase", state.phase, rule_of_choice(PHASES)),
         (signed, path + "direction", state.direction, "must be -1 or 1 in slip"),
-        angle_rule(state.drive_angle, path),
     )
-    surface = _surface_rate(case, state)
+    surface = float(case.surface @ state.beta)
     off = state.f - surface
     rounding = SAME_SPEED * (case.model.Omega + abs(surface))
     held = state.phase != "stick" or abs(off) <= SAME_SPEED * abs(surface)
     ahead = state.phase != "slip" or off * state.direction >= -rounding
-    of_surface = f", less the surface's {surface:.9g}" if surface else ""
-    signs = f"must have the sign of direction={state.direction}{of_surface}"
+    signs = f"must have the sign of direction={state.direction}, less the surface's {surface:.9g}"
     others = "must be psi of plate_modes: the state belongs to other modes"
     require(
         # the clock's compensation is at most a unit in the last place of the time
@@ -540,21 +515,6 @@ def _check(state: State, case: EngineCase) -> None:
     )  # fmt: skip
 
 
-def _surface_rate(case: EngineCase, state: State) -> float:
-    """v_s / r_0 in a state, whose arrays fit the case."""
-    if not case.model.has_moving_surface:
-        return 0.0
-    row = np.zeros(4 * len(case.amplitudes))
-    row[case.present] = case.point[3, case.places]
-    return float(row[-len(case.amplitudes) :] @ state.beta)
-
-
-def angle_rule(drive_angle: object, path: str) -> tuple[bool, str, object, str]:
-    """The rule, for `require`, of a state's `drive_angle`."""
-    known = drive_angle is None or is_finite(drive_angle)
-    return known, path + "drive_angle", drive_angle, "must be a finite number, or None"
-
-
 def _fits(state: object, amplitudes: Array) -> bool:
     """Whether this is a state of modes with these amplitudes, shape (n_modes,)."""
     if not isinstance(state, State) or len(state.a) != len(amplitudes):
@@ -564,32 +524,29 @@ def _fits(state: object, amplitudes: Array) -> bool:
         return True
     # modes from two processors differ by at most 1e-13 (measured)
     within = 1e-9 * np.max(np.abs(amplitudes), initial=0.0)
-    return is_finite_array(stated, len(amplitudes)) and bool(
-        np.all(np.abs(stated - amplitudes) <= within)
-    )
+    return np.shape(stated) == amplitudes.shape and np.allclose(stated, amplitudes, 0, within)
 
 
 def is_finite(value: object) -> bool:
     return is_number(value) and math.isfinite(value)  # type: ignore[arg-type]
 
 
-def is_finite_array(values: object, size: int | None = None, *, flat: bool = True) -> bool:
-    """Whether values are finite real numbers, `size` of them if it is given, and one-dimensional if
-    `flat`."""
+def finite_numbers(values: object) -> Array | None:
+    """One number or several as an array of shape (n,); None if they are not finite real numbers."""
     if is_quantity(values):  # numpy would leave its unit out
-        return False
+        return None
     try:
-        array = np.asarray(values)
+        array = np.atleast_1d(np.asarray(values))
     except (TypeError, ValueError):
-        return False
-    fits = size in (None, array.size) and (array.ndim == 1 or not flat)
-    return fits and array.dtype.kind in "fiu" and all(map(math.isfinite, array.ravel().tolist()))
+        return None
+    good = array.ndim == 1 and array.dtype.kind in "fiu" and np.isfinite(array).all()
+    return array.astype(float) if good else None
 
 
-def finite_numbers(values: ArrayLike) -> Array | None:
-    """The values as an array of shape (n,); None if they are not finite numbers."""
-    several = [values] if is_number(values) else values
-    return np.asarray(several, dtype=float) if is_finite_array(several) else None
+def is_finite_array(values: object, size: int | None = None) -> bool:
+    """Whether values are a sequence of finite real numbers, `size` of them if it is given."""
+    found = None if is_number(values) else finite_numbers(values)
+    return found is not None and size in (None, found.size)
 
 
 # Local truncation error for a tolerance of 1, on rigid and on compliant contact. With it the errors

@@ -62,7 +62,6 @@ from disc_model.stability.sliding import height_of_slider, steady_sliding
 
 # legs over which a motion approaches a known attractor, and is steady on another one
 NEARING, SETTLING = 4, 8
-STEADY = 1e-3  # largest relative change of the range over these without a drift
 # largest relative change of ranges, rates and shares over 40 s of a settled motion: aperiodic ones
 # vary by half of it
 VARIATION = 0.01
@@ -96,54 +95,46 @@ class Arrival(NamedTuple):
         return self.settling.answer is Settled.SETTLED
 
 
-def arrival(p: Parameters, legs: Sequence[Result], most: int = sys.maxsize) -> Arrival:
+def arrival(p: Parameters, legs: Sequence[Result]) -> Arrival:
     """What a motion has come to at the end of its legs: what rest, eigenvalues of steady sliding or
-    multipliers of a cycle of up to `most` releases prove; otherwise what the record of angles at
-    releases and separations shows."""
-    leg = legs[-1]
+    multipliers of a cycle prove; otherwise what the record of its events shows."""
+    return proof(p, legs[-1]) or Arrival(settling_of(legs))
+
+
+def proof(p: Parameters, leg: Result, most: int = sys.maxsize) -> Arrival | None:
+    """What rest, eigenvalues of steady sliding or multipliers of a cycle of up to `most` releases prove
+    at the end of a leg, also that the motion lingers near an unstable cycle."""
     now = leg.final_state.time
     equilibrium = find_equilibrium(p, leg)
     if equilibrium is not None:
         return Arrival(Settling(Settled.SETTLED, least=0.0, since=now), equilibrium)
-
     near = _cycle_reached(p, leg, most)
     if near is not None and near.follows_cycle:  # of stable cycles only
-        proof = Settling(Settled.SETTLED, near.cycle.growth_rate, least=0.0, since=now)
-        return Arrival(proof, near=near)
+        return Arrival(Settling(Settled.SETTLED, near.cycle.growth_rate, 0.0, now), near=near)
     if near is not None and near.lingers:
-        return Arrival(Settling(Settled.CHANGING, near.cycle.growth_rate, least=0.0))
+        return Arrival(Settling(Settled.CHANGING, near.cycle.growth_rate, 0.0))
+    return None
 
-    repeats = repetition_in_slip(legs)
-    if repeats is not None:
-        return Arrival(repeats)
+
+def settling_of(legs: Sequence[Result]) -> Settling:
+    """Whether a motion has settled by the record of its angles at releases and separations. If it
+    loses contact and never sticks, it does not come to the section of the return map, so that
+    multipliers cannot tell: it has settled if its losses repeat over the last `REPETITION` s."""
     rows = np.vstack([leg.event_rows for leg in legs])
-    switches = rows[np.isin(rows[:, KIND], (STICK_TO_SLIP, LOSS_OF_CONTACT))]
-    return Arrival(settling(switches[:, TIME], switches[:, ANGLE]))
-
-
-def repetition_in_slip(legs: Sequence[Result]) -> Settling | None:
-    """The answer for a motion that loses contact and never sticks, whose losses repeat over the
-    last `REPETITION` s of its legs: it does not come to the section of the return map, so that
-    multipliers cannot tell. None for any other motion."""
     end = legs[-1].final_state.time
     since = end - REPETITION
-    releases = np.hstack([event_times(leg, STICK_TO_SLIP) for leg in legs])
-    losses = np.hstack([event_times(leg, LOSS_OF_CONTACT) for leg in legs])
-    intervals = np.diff(losses[losses > since])
-    if np.any(releases > since) or len(intervals) < FEWEST:
-        return None
-
-    # from before the record to its end
-    goes_on = losses[0] <= since and end - losses[-1] <= 2 * intervals.max()
-    period = shortest_period(intervals)
-    if not goes_on or not period:
-        return None
-
-    # not only from each to the next: a drift takes many periods
-    if max(float(np.ptp(intervals[i::period])) for i in range(period)) > CLOSES:
-        return None
-    visible = CLOSES / (STILL * float(intervals.mean()))  # relative, as for other records
-    return Settling(Settled.SETTLED, least=visible / REPETITION, since=since)
+    kind, time = rows[:, KIND], rows[:, TIME]
+    losses = time[kind == LOSS_OF_CONTACT]
+    late = np.diff(losses[losses > since])
+    if len(late) >= FEWEST and not np.any(time[kind == STICK_TO_SLIP] > since):
+        # from before the record to its end, and not only from each to the next: drifts are slow
+        goes_on = losses[0] <= since and end - losses[-1] <= 2 * late.max()
+        period = shortest_period(late) if goes_on else 0
+        if period and max(float(np.ptp(late[i::period])) for i in range(period)) <= CLOSES:
+            visible = CLOSES / (STILL * float(late.mean()))  # relative, as for other records
+            return Settling(Settled.SETTLED, least=visible / REPETITION, since=since)
+    switches = np.isin(kind, (STICK_TO_SLIP, LOSS_OF_CONTACT))
+    return settling(time[switches], rows[switches, ANGLE])
 
 
 def _cycle_reached(p: Parameters, leg: Result, most: int) -> NearCycle | None:
@@ -190,17 +181,15 @@ def sweep(
         # the stay at this value, doubled until the motion has settled
         stay = dwell
         legs = list[Result]()
-        while True:
-            result = simulate(case, begin + stay, tol=tol, initial_state=state)
-            legs.append(result)
-            if not result.status.complete:
-                yield step, result, None, Arrival(Settling())
+        reached = Arrival(Settling())
+        while not reached.settled and (not legs or 2 * stay <= longest):
+            stay = 2 * stay if legs else dwell
+            legs.append(simulate(case, begin + stay, tol=tol, initial_state=state))
+            if not legs[-1].status.complete:
+                yield step, legs[-1], None, Arrival(Settling())
                 return
-            state = result.final_state
+            state = legs[-1].final_state
             reached = arrival(case, legs)
-            if reached.settled or 2 * stay > longest:
-                break
-            stay *= 2
 
         # its description, from the cycle itself if one was reached
         if reached.near is not None:
@@ -216,14 +205,12 @@ def regularity(p: Parameters, state: State, tol: float) -> Motion:
     cycle, however long its period."""
     duration = SETTLING * FIRST_LEG
     run = simulate(p, state.time + duration, tol=tol, initial_state=state)
-    times = run.events["time"].to_numpy(dtype=float)
-    kinds = run.events["kind"].to_numpy()
-    marks = kinds == "stick_to_slip"
-    periodic = Outcome.OTHER_CYCLE
-    if (kinds == "separation").any():
-        marks = kinds == "separation"
-        periodic = Outcome.SEPARATING
-    intervals = np.diff(times[marks])
+    periodic = Outcome.SEPARATING
+    times = event_times(run, LOSS_OF_CONTACT)
+    if not times.size:
+        periodic = Outcome.OTHER_CYCLE
+        times = event_times(run, STICK_TO_SLIP)
+    intervals = np.diff(times)
     if not run.status.complete or len(intervals) < FEWEST:
         return Motion(Outcome.UNDECIDED)
 
@@ -287,42 +274,34 @@ class Basins:
 
     def follow(self, state: State) -> OutcomeResult:
         """Outcome of the motion from a state at time 0; a new attractor is added to `known`."""
+        result = OutcomeResult(Outcome.UNDECIDED)
         legs = list[Result]()
         segments = list[Segment]()
-        first_separation = math.nan
         steady = False
-        attractor = None
-        while attractor is None and state.time < self.horizon:
+        while result.attractor is None and state.time < self.horizon:
             # a leg; the first takes what the others, which are of one length, leave of the horizon
             later_legs = (self.horizon - state.time) // FIRST_LEG - 1
             leg = self._simulate_leg(state, self.horizon - max(later_legs, 0) * FIRST_LEG)
-            state = leg.final_state
-            if math.isnan(first_separation):
-                first_separation = leg.first_separation
-            if not leg.status.complete:
-                return OutcomeResult(
-                    None, state.time, first_separation=first_separation, failed=leg
-                )
             legs.append(leg)
+            state = leg.final_state
+            result.simulated = state.time
+            if math.isnan(result.first_separation):
+                result.first_separation = leg.first_separation
+            if not leg.status.complete:
+                return replace(result, outcome=None, failed=leg)
             segments.append(segment_of(leg))
-            was_steady = steady
-            steady = self._is_steady(segments)
 
-            # an attractor that the motion approaches
-            if self.near:
-                attractor = self._approached_by_range(segments)
-                if self._near_quiet_cycle(segments[-1], state):
-                    attractor = self.known[0]
-
-            # or one on which it is, when it becomes steady, and at the horizon
+            # an attractor that the motion approaches, or one on which it is, when it becomes steady,
+            # and at the horizon
+            was_steady, steady = steady, self._is_steady(segments)
             over = state.time >= self.horizon
-            becomes_steady = bool(self.near) and steady and not was_steady
-            if attractor is None and (over or becomes_steady):
-                attractor = self._settled_on(legs, segments[-1], steady=steady, over=over)
-        kind = Outcome.UNDECIDED if attractor is None else attractor.kind
-        return OutcomeResult(
-            kind, state.time, attractor=attractor, first_separation=first_separation
-        )
+            if self.near:
+                result.attractor = self._approached(segments, state)
+            if result.attractor is None and (over or (self.near and steady and not was_steady)):
+                result.attractor = self._settled_on(legs, segments[-1], steady=steady, over=over)
+        if result.attractor is not None:
+            result.outcome = result.attractor.kind
+        return result
 
     def _simulate_leg(self, state: State, end: float) -> Result:
         # the range is taken over thirty oscillations or more
@@ -338,39 +317,27 @@ class Basins:
     def _difference(self, first: Segment, second: Segment) -> float:
         """Largest difference of ranges, rates and shares, relative to the larger one or to a
         floor."""
-        floors = {
-            "range": self.smallest,
-            "separation_rate": 2 / FIRST_LEG,
-            "stick_fraction": SAME,
-            "separation_fraction": SAME,
-        }
-        apart = []
-        for name, floor in floors.items():
-            a, b = getattr(first, name), getattr(second, name)
-            if name == "range":
-                a, b = max(a, floor), max(b, floor)
-            apart.append(abs(a - b) / max(a, b, floor))
-        return float(max(apart))
+        a, b = (
+            (
+                max(x.range, self.smallest),
+                x.separation_rate,
+                x.stick_fraction,
+                x.separation_fraction,
+            )
+            for x in (first, second)
+        )
+        floors = (self.smallest, 2 / FIRST_LEG, SAME, SAME)
+        apart = np.abs(np.subtract(a, b)) / np.max([a, b, floors], axis=0)
+        return float(apart.max())
 
-    def _near_quiet_cycle(self, last: Segment, state: State) -> bool:
-        """Whether a motion follows the stick-slip cycle, as its multipliers predict."""
-        near = self.cycle
-        if near is None or last.separation_rate > 0:
-            return False
-        release = self.map.next_release(state)
-        if not release.reached:
-            return False
-        for x in (release.x, *self.map.returns(release.x, near.cycle.releases - 1)):
-            if np.linalg.norm(x - near.x) <= NEAR * self.map.deflection:
-                return near.follows_multipliers(x)
-        return False
-
-    def _approached_by_range(self, segments: Sequence[Segment]) -> Attractor | None:
-        """The attractor, other than the stick-slip cycle, whose range of the height those of the last
-        legs approach, ever more slowly; None if that is not clear, as on a rigid disc, whose height
-        never changes."""
+    def _approached(self, segments: Sequence[Segment], state: State) -> Attractor | None:
+        """The attractor that a motion approaches: the stick-slip cycle, as its multipliers predict, or
+        the one whose range of the height those of the last legs approach, ever more slowly."""
+        if segments[-1].separation_rate == 0 and self._follows_cycle(state):
+            return self.known[0]
         ranges = [segment.range for segment in segments[-NEARING:]]
-        others = [attractor for attractor in self.known if attractor.kind is not Outcome.STICK_SLIP]
+        others = [each for each in self.known if each.kind is not Outcome.STICK_SLIP]
+        # the height over a rigid disc never changes
         if self.static == 0 or len(ranges) < NEARING or not others:
             return None
 
@@ -387,17 +354,26 @@ class Basins:
         slows = _rest_of_drift(ranges) <= (2 * distance + VARIATION) * ranges[-1]
         return nearest if slows and not parts else None
 
+    def _follows_cycle(self, state: State) -> bool:
+        """Whether the motion from a state follows the stick-slip cycle."""
+        if self.cycle is None:
+            return False
+        release = self.map.next_release(state)
+        if not release.reached:
+            return False
+        points = [release.x, *self.map.returns(release.x, self.cycle.cycle.releases - 1)]
+        close = [x for x in points if self.map.apart(x, self.cycle.x) <= NEAR]
+        return bool(close) and self.cycle.follows_multipliers(close[0])
+
     def _is_steady(self, segments: Sequence[Segment]) -> bool:
         """Whether the last segments differ so little, and drift so slowly, that a motion may have
         settled."""
-        *others, last = segments[-SETTLING:]
-        if len(others) < SETTLING - 1:
+        last = segments[-SETTLING:]
+        if len(last) < SETTLING:
             return False
-        if max(self._difference(segment, last) for segment in others) > VARIATION:
-            return False
-        ranges = [max(segment.range, self.smallest) for segment in (*others, last)]
-        stays = abs(ranges[-1] - ranges[0]) <= STEADY * ranges[-1]
-        return stays or _rest_of_drift(ranges) <= SAME / 2 * ranges[-1]
+        ranges = [max(segment.range, self.smallest) for segment in last]
+        varies = max(self._difference(segment, last[-1]) for segment in last) > VARIATION
+        return not varies and _rest_of_drift(ranges) <= SAME / 2 * ranges[-1]
 
     def _settled_on(
         self, legs: Sequence[Result], last: Segment, *, steady: bool, over: bool
@@ -405,25 +381,26 @@ class Basins:
         """The attractor on which a motion is, if that is proven, the whole record has settled and
         is `over`, or the last legs are as steady as those on a known attractor; None near an
         unstable cycle."""
-        reached = arrival(self.p, legs, LARGEST_PERIOD)
-        if not reached.settled and reached.settling.least == 0:  # by multipliers
-            return None
-        attractor = Attractor(reached.calm or Outcome.UNDECIDED, last)
-        if reached.calm is Outcome.STEADY_SLIDING:
-            attractor = Attractor(Outcome.STEADY_SLIDING, _segment_of_sliding(self.p))
+        reached = proof(self.p, legs[-1], LARGEST_PERIOD)
+        settled = reached is not None or (over and settling_of(legs).answer is Settled.SETTLED)
+        if reached is None:
+            attractor = Attractor(Outcome.UNDECIDED, last)
         elif reached.near is not None:
             # segments of a motion that is not steady have a transient
             segment = last if steady else self._segment_of_cycle(reached.near)
             attractor = self._periodic(reached.near, segment)
+        elif reached.calm is not None:
+            slides = reached.calm is Outcome.STEADY_SLIDING
+            attractor = Attractor(reached.calm, _segment_of_sliding(self.p) if slides else last)
+        else:
+            return None
 
-        is_proven = attractor.kind is not Outcome.UNDECIDED
-        is_on_it = is_proven or (over and reached.settled)
         for known in self.known:
             if self._same(attractor, known):
-                return known if is_on_it or steady else None
-        if not is_on_it:
+                return known if settled or steady else None
+        if not settled:
             return None
-        if not is_proven:
+        if reached is None:
             kind = regularity(self.p, legs[-1].final_state, self.tol).kind
             attractor = replace(attractor, kind=kind)
         self.known.append(attractor)
@@ -436,8 +413,7 @@ class Basins:
         if kinds & EQUILIBRIA and Outcome.UNDECIDED not in kinds:
             return len(kinds) == 1
         if first.points is not None and second.points is not None:
-            apart = float(np.linalg.norm(second.points - first.points[0], axis=1).min())
-            return apart <= SAME_POINT * self.map.deflection
+            return min(self.map.apart(x, first.points[0]) for x in second.points) <= SAME_POINT
         return self._difference(first.segment, second.segment) <= SAME
 
     def _periodic(self, near: NearCycle, segment: Segment) -> Attractor:
@@ -478,7 +454,6 @@ def random_perturbation(p: Parameters, state: State, energy: float, key: Sequenc
     energy_drawn = 0.5 * (float(np.sum(draw**2)) + squares)
     size = math.sqrt(energy / energy_drawn)
     slope = float(np.sum(modes.diameters * modes.psi * b))
-    velocity_of_u = velocity + slip_rate(p, state) * slope
     return state.replace(
         a=state.a + size * a,
         b=state.b + size * b,
@@ -486,7 +461,7 @@ def random_perturbation(p: Parameters, state: State, energy: float, key: Sequenc
         beta=state.beta + size * beta,
         f=state.f + size * surface / p.r_0,
         u=state.u + size * u,
-        u_velocity=state.u_velocity + size * velocity_of_u,
+        u_velocity=state.u_velocity + size * (velocity + slip_rate(p, state) * slope),
     )
 
 

@@ -4,12 +4,14 @@ stability."""
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Any, ClassVar
+from typing import Annotated, Any, Literal, NamedTuple
 
 import numpy as np
 import xarray as xr
+from pydantic import Field
 from scipy.optimize import brentq, linear_sum_assignment, minimize_scalar
 
 from disc_model.arrays import Array, ComplexArray, EqualByValue, Mask
@@ -22,25 +24,26 @@ from disc_model.data.variables import (
 )
 from disc_model.display import Bar, counted, drawings, progress_bar
 from disc_model.engine.jit.cache import compiling
-from disc_model.errors import Fault, raise_faults, violations
-from disc_model.parameters import Parameters, Quantity, foreign_case
+from disc_model.parameters import Parameters
 from disc_model.provenance import versions_text
-from disc_model.stability.continuation import (
-    are_slow,
-    free_faults,
-    interval_in_si,
-    passings,
-    turns_of,
-)
+from disc_model.stability.continuation import Bounds, are_slow, passings, require_interval, turns_of
 from disc_model.stability.cycle import STICK_SLIP, find_cycle
 from disc_model.stability.sliding import growth_rates, steady_sliding
-from disc_model.units import CYCLE_TOLERANCES, is_number, is_whole, limits_faults
+from disc_model.units import Count, CycleTolerance, checked
 
 SLIDING = "sliding"
-MOTIONS = {STICK_SLIP: "the stick-slip cycle", SLIDING: "steady sliding"}
-"""Kinds of motion whose stability is followed, and what names of variables call them."""
-OF_PARAMETER = ("value", "border", "crossings", "values", "resolution", "jumps")
-"""Variables in the unit of the parameter."""
+DIMENSIONS: Mapping[str, tuple[str, ...]] = {
+    "value": (),
+    "border": (),
+    "resolution": (),
+    "crossings": ("crossing",),
+    "unstable_above": ("crossing",),
+    "growth_rate": ("values",),
+    "sliding_growth_rate": ("values",),
+}
+"""Variables of a dataset; "values" stands for the parameter."""
+OF_PARAMETER = ("value", "border", "resolution", "crossings")
+"""Those in the unit of the parameter."""
 MOST_POINTS = 100_000  # largest number of values: an hour of work
 SHORTEST = 1e-6  # of the range, to which crossings are located
 NARROWEST = 1e-5  # of the range: between values closer than that no further ones are computed
@@ -55,9 +58,8 @@ MAY_HAVE_MET = 1.5
 # sum, as two that follow each other: the first exponent does not tell them apart, the second one
 # takes them to have passed
 MATCHES = (1.0, 0.5)
-JUMP = (
-    1e-4  # relative change of the period at a change of stability, of two cycles on no one branch
-)
+# relative change of the period at a change of stability, of two cycles on no one branch
+JUMP = 1e-4
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -141,9 +143,8 @@ class Critical(EqualByValue):
         if self.kind == STICK_SLIP and slides.size:
             said.append(f"steady sliding is unstable, without a cycle, {self._from_to(slides)}")
         if self.jumps.size:
-            said.append(
-                f"{counted(len(self.jumps), 'jump')} to another cycle, {self._from_to(self.jumps)}"
-            )
+            jumps = counted(len(self.jumps), "jump")
+            said.append(f"{jumps} to another cycle, {self._from_to(self.jumps)}")
         return "; ".join(said)
 
     def _from_to(self, values: Array) -> str:
@@ -151,11 +152,11 @@ class Critical(EqualByValue):
         return f"from {values[0]:.6g} to {values[-1]:.6g} {unit}".rstrip()
 
     def __repr__(self) -> str:
-        unit = unit_of_parameter(self.name)
-        first = self.message or f"unstable from {self.value:.6g} {unit}".rstrip()
+        first = self.message or f"unstable from {value_with_unit(self.name, self.value)}"
         crossings = counted(len(self.crossings), "crossing")
-        steps = f"{len(self.values)} values, steps of at most {self.resolution:.2g} {unit}".rstrip()
-        return f"Critical({self.name}, {self.kind}: {first}, {crossings}, {steps})"
+        return (
+            f"Critical({self.name}, {self.kind}: {first}, {crossings}, {len(self.values)} values)"
+        )
 
     def to_dataset(self) -> xr.Dataset:
         """All values computed, and the crossings, as a dataset, to save, or to handle by xarray and pandas.
@@ -172,14 +173,16 @@ class Critical(EqualByValue):
         >>> dm.load("critical.nc")["growth_rate"].dims
         ('mu_s',)
         """
-        described = attributes_of_critical(self)
-        dims = {"crossings": "crossing", "unstable_above": "crossing"}
-        dims |= {"growth_rate": self.name, "sliding_growth_rate": self.name}
-        variables = {
-            name: xr.Variable(dims[name], getattr(self, name), described[name]) for name in dims
-        }
-        for name in ("value", "border", "resolution"):
-            variables[name] = xr.Variable((), getattr(self, name), described[name])
+        along = attributes_of_number(self.name)
+        variables = {}
+        for name, dims in DIMENSIONS.items():
+            attrs = OF_RESULTS["Critical"][name].texts()
+            if name in OF_PARAMETER:
+                attrs |= {
+                    "units": along["units"],
+                    "long_name": f"{attrs['long_name']} of {self.name}",
+                }
+            variables[name] = xr.Variable(dims, getattr(self, name), attrs)
         attrs = {
             "kind": self.kind,
             "message": self.message,
@@ -187,8 +190,8 @@ class Critical(EqualByValue):
             "parameters": self.parameters.canonical_json,
             "versions": versions_text(),
         }
-        along = xr.Variable(self.name, self.values, attributes_of_number(self.name))
-        return xr.Dataset(variables, {self.name: along}, attrs)
+        data = xr.Dataset(variables, {"values": ("values", self.values, along)}, attrs)
+        return data.rename(values=self.name)
 
     def plot(self, ax: Any = None, **look: Any) -> Any:
         """Draw the growth rate over the parameter, shaded where the motion is unstable, on axes or in a
@@ -196,30 +199,16 @@ class Critical(EqualByValue):
         return drawings().critical(ax, self, **look)
 
 
-def attributes_of_critical(found: Critical) -> dict[str, dict[str, Any]]:
-    """Attributes of critical values by name; those in the unit of the parameter name it, and say in the
-    comment what it and the kind of motion are."""
-    number = attributes_of_number(found.name)
-    meant = {"parameter": number["long_name"], "motion": MOTIONS[found.kind]}
-    attributes = {name: known.texts() for name, known in OF_RESULTS["Critical"].items()}
-    for name in OF_PARAMETER:
-        own = attributes[name]
-        own["units"] = number["units"]
-        own["long_name"] = f"{own['long_name']} of {found.name}"
-        own["comment"] = own["comment"].format(**meant)
-    return attributes
-
-
+@checked
 @compiling()
 def critical(
     case: Parameters,
     name: str,
-    bounds: tuple[Quantity, Quantity],
+    bounds: Bounds,
     *,
-    points: int = 201,
-    precision: float | None = None,
-    tol: float = 1e-12,
-    kind: str = STICK_SLIP,
+    points: Annotated[Count, Field(ge=2, le=MOST_POINTS)] = 201,
+    tol: CycleTolerance = 1e-12,
+    kind: Literal["stick_slip", "sliding"] = "stick_slip",
     progress: bool = False,
 ) -> Critical:
     """The least parameter value with unstable motion near the static start, and all stability
@@ -242,11 +231,10 @@ def critical(
     bounds : lowest and highest value; SI units, or texts with units
     points : number of evenly spaced values, which determines the `resolution`. With nine modes,
         the scan takes one or two seconds by default
-    precision : to which crossings are located; a millionth of the range if not given
     tol : as in `floquet`
     kind : "stick_slip" for the motion near the static start; "sliding" for steady sliding, which is unstable if a mode
         grows, and counts as unstable where it does not exist
-    progress : whether a bar on standard error shows how many values are done
+    progress : whether a bar on standard error counts the values that are done
 
     Returns
     -------
@@ -264,7 +252,7 @@ def critical(
     >>> import disc_model as dm
     >>> case = dm.Parameters(N=385, Omega=12)
     >>> dm.critical(case, "mu_s", (0.38, 0.42), points=5)
-    Critical(mu_s, stick_slip: 1 jump to another cycle, from 0.414... to 0.414..., 3 crossings, ... of ...)
+    Critical(mu_s, stick_slip: 1 jump to another cycle, from 0.414... to 0.414..., 3 crossings, ... values)
 
     Steady sliding of a block on a rigid disc is unstable while friction falls too steeply with the speed:
 
@@ -274,171 +262,137 @@ def critical(
     >>> sliding.crossings.round(2).tolist(), sliding.unstable_above.tolist()
     ([4.44], [False])
     """
-    of_bounds: list[Fault] = []
-    ends = interval_in_si(name, bounds, of_bounds)
-    ascend = ends is not None or bool(of_bounds)
-    counts = is_whole(points) and 2 <= points <= MOST_POINTS
-    known = isinstance(kind, str) and kind in MOTIONS
-    good = precision is None or (is_number(precision) and precision > 0)
-    wrong = limits_faults("tol", tol, CYCLE_TOLERANCES) + violations(
-        (ascend, "bounds", bounds, "must be two ascending finite numbers"),
-        (counts, "points", points, f"must be a whole number from 2 to {MOST_POINTS}"),
-        (good, "precision", precision, "must be a number > 0"),
-        (known, "kind", kind, f"must be one of {', '.join(MOTIONS)}"),
-        (isinstance(progress, bool), "progress", progress, "must be True or False"),
-    )
-    raise_faults(foreign_case(case) or of_bounds + wrong + free_faults(case, [name]))
-    low, high = ends
+    require_interval(case, name, bounds)
+    low, high = bounds
     values = np.linspace(low, high, points).tolist()
     for value in values:
         case.replace(**{name: value})  # must be a case, which is found before any work is done
-
-    shortest = float(precision or SHORTEST * (high - low))
-    make = SlidingScan if kind == SLIDING else Scan
-    with progress_bar("critical", len(values), progress) as bar:
-        scan = make(case, name, float(tol), bar)
+    with progress_bar("critical", None, progress) as bar:
+        scan = Scan(case, name, tol, kind, bar)
         for value in values:
-            scan.rate(value)
-        scan.refine(max(shortest, NARROWEST * (high - low)))
-        scan.locate(shortest)
-    return scan.found()
+            scan.at(value)
+        narrowest = NARROWEST * (high - low)
+        if kind == SLIDING:
+            look_for_extremes(scan, narrowest)
+        else:
+            look_for_tongues(scan, narrowest)
+        scan.locate(SHORTEST * (high - low))
+    changes = [(above, scan.at(below), scan.at(above)) for below, above in scan.changes()]
+    known = sorted(scan.motions.items())
+    jumps = [x for x, below, above in changes if abs(above.period / below.period - 1) > JUMP]
+    return Critical(
+        parameters=case,
+        name=name,
+        crossings=np.array([x for x, *_ in changes]),
+        unstable_above=np.array([below.stable for _, below, _ in changes], dtype=bool),
+        jumps=np.array(jumps),
+        values=np.array([x for x, _ in known]),
+        growth_rate=np.array([motion.growth_rate for _, motion in known]),
+        sliding_growth_rate=np.array([motion.sliding_growth_rate for _, motion in known]),
+        value=next((x for x, motion in known if not motion.stable), math.nan),
+        kind=kind,
+    )
+
+
+class Motion(NamedTuple):
+    """A motion: whether small disturbances die out, its growth rate, that of steady sliding if it is
+    this motion (1/s, nan without one), its period (s), and its multipliers or eigenvalues."""
+
+    stable: bool
+    growth_rate: float
+    sliding_growth_rate: float
+    period: float
+    spectrum: ComplexArray
 
 
 class Scan:
-    """Motions near the static start by the value of one parameter, each computed once: cycles that
-    `find_cycle` finds."""
+    """Motions by the value of one parameter, each computed once: cycles near the static start, as
+    `find_cycle` finds them, or steady sliding."""
 
-    kind: ClassVar = STICK_SLIP
-
-    def __init__(self, p: Parameters, name: str, tol: float, bar: Bar) -> None:
+    def __init__(self, p: Parameters, name: str, tol: float, kind: str, bar: Bar) -> None:
         self.p = p
         self.name = name
         self.tol = tol
+        self.kind = kind
         self.bar = bar
-        self.motions: dict[float, Any] = {}
+        self.motions: dict[float, Motion] = {}
 
-    def at(self, x: float) -> Any:
+    def at(self, x: float) -> Motion:
         """The motion at a value."""
         if x not in self.motions:
             self.motions[x] = self._motion(self.p.replace(**{self.name: x}))
-            self.bar.expect(max(0, len(self.motions) - (self.bar.total or 0)))
             self.bar.advance()
         return self.motions[x]
 
-    def _motion(self, case: Parameters) -> Any:
-        return find_cycle(case, self.tol)
-
-    def is_stable(self, x: float) -> bool:
-        """Whether small disturbances of the motion at a value die out."""
-        return self.at(x).motion in STABLE_CYCLES
-
-    def rate(self, x: float) -> float:
-        """A number that has the sign of growth: its rate, 1/s; that of a motion without one, or of
-        another stability than its own rate, is 1 or -1."""
-        rate = float(self.at(x).growth_rate)
-        stable = self.is_stable(x)
-        return rate if math.isfinite(rate) and (rate < 0) == stable else 1.0 - 2.0 * stable
-
-    def refine(self, narrowest: float) -> None:
-        """Compute further values where the cycles beside them leave a change of stability in doubt,
-        none closer than `narrowest` to another one."""
-        examined = set[tuple[float, float]]()
-        for _ in range(ROUNDS):
-            gaps = set(pairwise(sorted(self.motions))) - examined
-            examined |= gaps
-            for low, high in sorted(gaps):
-                for share in _doubtful_shares(self.at(low).multipliers, self.at(high).multipliers):
-                    if min(share, 1 - share) * (high - low) > narrowest:
-                        self.at(low + share * (high - low))
+    def _motion(self, case: Parameters) -> Motion:
+        if self.kind == SLIDING:
+            found = steady_sliding(case)
+            stable = found.status.exists and not found.growing.size
+            rate = found.growth_rate
+            return Motion(stable, rate, rate, math.nan, found.eigenvalues)
+        cycle = find_cycle(case, self.tol)
+        slides = cycle.motion in ("steady_sliding", "unstable_sliding")
+        rate = cycle.sliding_growth_rate if slides else math.nan
+        stable = cycle.motion in STABLE_CYCLES
+        return Motion(stable, cycle.growth_rate, rate, cycle.period, cycle.multipliers)
 
     def changes(self) -> list[tuple[float, float]]:
         """Neighbouring values between which stability changes."""
         pairs = pairwise(sorted(self.motions))
-        return [pair for pair in pairs if self.is_stable(pair[0]) != self.is_stable(pair[1])]
+        return [pair for pair in pairs if self.at(pair[0]).stable != self.at(pair[1]).stable]
 
     def locate(self, shortest: float) -> None:
         """Compute values up to where each change of stability lies between two that are `shortest`
         apart."""
+
+        def rate(x: float) -> float:
+            """A number that has the sign of growth: its rate, 1/s; that of a motion without one, or
+            of another stability than its own rate, is 1 or -1."""
+            stable, own, *_ = self.at(x)
+            return own if math.isfinite(own) and (own < 0) == stable else 1.0 - 2.0 * stable
+
         wide = True
         while wide:
             wide = False
             for low, high in self.changes():
                 if high - low > shortest * (1 + 1e-9) and low < 0.5 * (low + high) < high:
-                    brentq(self.rate, low, high, xtol=shortest / 2, rtol=1e-15)
+                    brentq(rate, low, high, xtol=shortest / 2, rtol=1e-15)
                     wide = True
 
-    def found(self) -> Critical:
-        """The result."""
-        changes = self.changes()
-        values = sorted(self.motions)
-        motions = [self.at(x) for x in values]
-        jumps = [high for low, high in changes if self._jumps(low, high)]
-        return Critical(
-            parameters=self.p,
-            name=self.name,
-            crossings=np.array([high for _, high in changes]),
-            unstable_above=np.array([self.is_stable(low) for low, _ in changes], dtype=bool),
-            jumps=np.array(jumps),
-            values=np.array(values),
-            growth_rate=np.array([motion.growth_rate for motion in motions]),
-            sliding_growth_rate=np.array([self._sliding_rate(motion) for motion in motions]),
-            value=next((x for x in values if not self.is_stable(x)), math.nan),
-            kind=self.kind,
-        )
 
-    def _jumps(self, low: float, high: float) -> bool:
-        """Whether the cycles on both sides of a change of stability are on no one branch."""
-        return abs(self.at(high).period / self.at(low).period - 1) > JUMP
+def look_for_extremes(scan: Scan, narrowest: float) -> None:
+    """Compute the greatest growth rates of sliding among stable neighbours, and the least ones among
+    unstable ones: of modes that meet, only one may grow for a stretch."""
 
-    def _sliding_rate(self, motion: Any) -> float:
-        """The growth rate of steady sliding, 1/s, if this takes the place of a cycle; else nan."""
-        slides = motion.motion in ("steady_sliding", "unstable_sliding")
-        return float(motion.sliding.growth_rate) if slides else math.nan
-
-
-class SlidingScan(Scan):
-    """Steady sliding by the value of one parameter."""
-
-    kind: ClassVar = SLIDING
-
-    def _motion(self, case: Parameters) -> Any:
-        return steady_sliding(case)
-
-    def is_stable(self, x: float) -> bool:
-        motion = self.at(x)
-        return motion.status.exists and not motion.growing.size
-
-    def refine(self, narrowest: float) -> None:
-        """Compute the greatest growth rates among stable neighbours, and the least ones among
-        unstable ones: of modes that meet, only one may grow for a stretch."""
-        known = sorted(self.motions)
-        for low, middle, high in zip(known, known[1:], known[2:], strict=False):
-            stable = {self.is_stable(x) for x in (low, middle, high)}
-            if len(stable) > 1:
-                continue
-            sign = -1.0 if stable == {True} else 1.0
-            ends = [sign * self._largest(x) for x in (low, middle, high)]
-            is_flat = ends[0] == ends[1] == ends[2]  # neutral at all three: there is no extreme
-            if ends[1] <= min(ends[0], ends[2]) and not is_flat:
-                minimize_scalar(
-                    lambda x, sign=sign: sign * self._largest(float(x)),
-                    bounds=(low, high),
-                    method="bounded",
-                    options={"xatol": narrowest},
-                )
-
-    def _largest(self, x: float) -> float:
+    def largest(x: float, sign: float) -> float:
         """The growth rate at a value, 1/s, of modes that are not neutral, which hide what happens to
-        others; 0 if all are, nan without steady sliding."""
-        sliding = self.at(x)
-        rates = growth_rates(sliding.eigenvalues)
-        return float(rates[rates != 0].max() if rates.any() else sliding.growth_rate)
+        others, times a sign; 0 if all are, nan without steady sliding."""
+        rates = growth_rates(scan.at(float(x)).spectrum)
+        return sign * float(rates[rates != 0].max() if rates.any() else scan.at(x).growth_rate)
 
-    def _jumps(self, low: float, high: float) -> bool:
-        return False
+    known = sorted(scan.motions)
+    for around in zip(known, known[1:], known[2:], strict=False):
+        stable = {scan.at(x).stable for x in around}
+        sign = -1.0 if True in stable else 1.0
+        before, here, after = (largest(x, sign) for x in around)
+        is_flat = before == here == after  # neutral at all three: there is no extreme
+        if len(stable) == 1 and here <= min(before, after) and not is_flat:
+            options = {"xatol": narrowest}
+            ends = (around[0], around[2])
+            minimize_scalar(largest, bounds=ends, args=(sign,), method="bounded", options=options)
 
-    def _sliding_rate(self, motion: Any) -> float:
-        return float(motion.growth_rate)
+
+def look_for_tongues(scan: Scan, narrowest: float) -> None:
+    """Compute further values where the cycles beside them leave a change of stability in doubt, none
+    closer than `narrowest` to another one."""
+    examined = set[tuple[float, float]]()
+    for _ in range(ROUNDS):
+        gaps = set(pairwise(sorted(scan.motions))) - examined
+        examined |= gaps
+        for low, high in sorted(gaps):
+            for share in _doubtful_shares(scan.at(low).spectrum, scan.at(high).spectrum):
+                if min(share, 1 - share) * (high - low) > narrowest:
+                    scan.at(low + share * (high - low))
 
 
 def _doubtful_shares(first: ComplexArray, second: ComplexArray) -> list[float]:

@@ -29,7 +29,7 @@ KINDS = (STICK_SLIP, SLIPPING)
 """Kinds of cycles, by whether they stick."""
 RETURNS_TRIED = (1, 2, 3)  # numbers of releases in a period of the cycles that are sought
 SAME_POINT = 1e-7  # distance of two computations of one point, over its norm
-# returns simulated from the static start before it is tried again; the latter if it nearly repeats
+# returns simulated before the search is tried again; the latter if the motion then nearly repeats
 TRANSIENTS = (60, 300)
 NEAR_REPEAT = (
     0.03  # distance after a return, over the static deflection, of a motion that nearly repeats
@@ -185,11 +185,10 @@ def guess_faults(guess: object, releases: object, kind: object) -> list[str]:
 
 
 def find_cycle(
-    p: Parameters, tol: float = 1e-12, guess: State | Array | None = None, releases: int = 1
+    p: Parameters, tol: float = 1e-12, guess: State | None = None, releases: int = 1
 ) -> FloquetResult:
-    """The cycle that Newton's method finds from `guess`, a point of the section; the first release
-    after the static start by default. Near the next release after a state the cycle has `releases`
-    releases, and may lose contact."""
+    """The cycle that Newton's method finds from the first release after the static start, or near the
+    next one after the state `guess`, where it has `releases` releases, and may lose contact."""
     if not may_stick_and_slip(p):
         if never_pulls(p):
             return no_cycle(p, tol, CycleStatus.AT_REST, "the slider stays where it is on the disc")
@@ -198,20 +197,13 @@ def find_cycle(
         )
     if guess is None:
         return cycle_from_rest(ReturnMap(p, tol))
-    from_state = isinstance(guess, State)
-    map_ = ReturnMap(p, tol, patient=from_state)
-    if isinstance(guess, State):
-        release = map_.next_release(guess)
-        if not release.reached:
-            end = ENDS[release.outcome]
-            status = CycleStatus.NO_STICK_SLIP if end == "time_over" else CycleStatus.NO_CYCLE
-            return no_cycle(
-                p, tol, status, f"the motion from the given state does not return: {end}"
-            )
-        x = release.x
-    else:
-        x = guess
-    solution = newton(map_, x, releases=releases, may_separate=from_state)
+    map_ = ReturnMap(p, tol, patient=True)
+    release = map_.next_release(guess)
+    if not release.reached:
+        end = ENDS[release.outcome]
+        status = CycleStatus.NO_STICK_SLIP if end == "time_over" else CycleStatus.NO_CYCLE
+        return no_cycle(p, tol, status, f"the motion from the given state does not return: {end}")
+    solution = newton(map_, release.x, releases=releases, may_separate=True)
     if solution is None:
         without = f"no cycle with {counted(releases, 'release')} near the given state"
         return no_cycle(p, tol, CycleStatus.NO_CYCLE, without)
@@ -246,35 +238,29 @@ def cycle_from_rest(map_: ReturnMap) -> FloquetResult:
                 return cycle_of(map_, run_through_once(map_, solution))
         # one that comes slowly to a cycle is followed further
         points = map_.returns(x, RETURNS_TRIED[-1])
-        if all(np.linalg.norm(point - x) > NEAR_REPEAT * map_.deflection for point in points):
+        if all(map_.apart(point, x) > NEAR_REPEAT for point in points):
             break
     sought = f"no cycle of up to {RETURNS_TRIED[-1]} releases was found near the static start"
     tried = f"{sought} or {followed} releases later, where stick-slip goes on: {GIVE_A_GUESS}"
     return no_cycle(p, tol, CycleStatus.NO_CYCLE, tried)
 
 
-_LOST = (
-    CycleStatus.SEPARATES,
-    f"contact is lost within {TRANSIENTS[0]} returns from the static start",
-)
-_WITHOUT_RETURN = {
-    "time_over": (CycleStatus.NO_STICK_SLIP, "the slider slips on for {:.3g} s without sticking"),
-    "lost_contact": _LOST,
-    "off_section": _LOST,
-    "non_finite": (CycleStatus.NON_FINITE, "the motion from the static start overflows"),
-    "stalled": (CycleStatus.NO_CYCLE, "switches follow each other without the clock moving"),
-    "paradox": (
-        CycleStatus.PARADOX,
-        "the motion from the static start runs into Painleve's paradox",
-    ),
+WITHOUT_RETURN = {
+    "time_over": CycleStatus.NO_STICK_SLIP,
+    "lost_contact": CycleStatus.SEPARATES,
+    "off_section": CycleStatus.SEPARATES,
+    "non_finite": CycleStatus.NON_FINITE,
+    "stalled": CycleStatus.NO_CYCLE,
+    "paradox": CycleStatus.PARADOX,
 }
-"""Status and message for a transient's orbit that ends in these ways; braces stand for its duration."""
+"""Status of a search by the end of a motion that does not return to the section."""
 
 
 def _without_return(map_: ReturnMap, outcome: int, duration: float) -> FloquetResult:
-    """The result for a motion whose orbit of that duration (s) does not end on the section."""
-    status, why = _WITHOUT_RETURN[ENDS[outcome]]
-    return no_cycle(map_.parameters, map_.tol, status, why.format(duration))
+    """The result for a motion from the static start that ends so after a duration (s)."""
+    end = ENDS[outcome]
+    reason = f"the motion from the static start does not stick again: {end} after {duration:.3g} s"
+    return no_cycle(map_.parameters, map_.tol, WITHOUT_RETURN[end], reason)
 
 
 def run_through_once(map_: ReturnMap, orbit: Orbit) -> Orbit:
@@ -288,8 +274,7 @@ def run_through_once(map_: ReturnMap, orbit: Orbit) -> Orbit:
         once = newton(map_, x, releases=releases, may_separate=may_separate)
         if once is None:
             continue
-        rounding = SAME_POINT * float(np.linalg.norm(once.start))
-        if np.allclose(once.start, x, rtol=0, atol=rounding):
+        if np.linalg.norm(once.start - x) <= SAME_POINT * np.linalg.norm(x):
             return once
     return orbit
 
@@ -322,13 +307,9 @@ def cycle_of(map_: ReturnMap, orbit: Orbit, kind: str = STICK_SLIP) -> FloquetRe
     with np.errstate(divide="ignore", invalid="ignore"):
         exponents = np.asarray(np.log(values) / orbit.period, dtype=complex)
     counts = orbit.counts
-    named = {
-        "release": counts.releases,
-        "backward release": counts.backward_releases,
-        "slip reversal": counts.reversals,
-        "separation": counts.separations,
-    }
-    events = ", ".join(counted(count, name) for name, count in named.items() if count)
+    names = ("release", "backward release", "slip reversal", "separation")
+    named = zip(counts, names, strict=False)
+    events = ", ".join(counted(count, name) for count, name in named if count)
     course = f"with {events}" if events else "that slips all the time"
     return FloquetResult(
         parameters=map_.parameters,
@@ -342,11 +323,7 @@ def cycle_of(map_: ReturnMap, orbit: Orbit, kind: str = STICK_SLIP) -> FloquetRe
         stick_fraction=orbit.stick_time / orbit.period,
         state=map_.state(orbit.start),
         bifurcation_type=bifurcation_type(leading),
-        releases=counts.releases,
-        backward_releases=counts.backward_releases,
-        reversals=counts.reversals,
-        separations=counts.separations,
-        sticks=counts.sticks,
+        **counts._asdict(),
         residual=orbit.residual / map_.deflection,
         kind=kind,
     )

@@ -8,11 +8,12 @@ docs/study_method.md, Outcome, describes the search.
 
 import math
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
 
 import numpy as np
+from scipy.linalg import expm
 
 from disc_model.arrays import Array, ComplexArray
 from disc_model.data.variables import CycleStatus, Outcome
@@ -32,7 +33,14 @@ from disc_model.stability.cycle import (
     run_through_once,
 )
 from disc_model.stability.return_map import Orbit, Passage, ReturnMap, newton
-from disc_model.stability.segments import Segment, late_window, segment_of, shares, slips_on
+from disc_model.stability.segments import (
+    TIME,
+    Segment,
+    duration_of,
+    late_window,
+    segment_of,
+    stick_share,
+)
 from disc_model.stability.sliding import energy_weights, rows_of_state, steady_sliding
 
 FIRST_LEG = 5.0  # s, before a motion is examined: dozens of cycles, and some turns of the disc
@@ -54,8 +62,7 @@ LARGEST_RATE_ERROR = 0.5  # of the growth rate, relative to it: it decides the s
 LARGEST_PERIOD = 8  # releases in a period of cycles that are sought, to limit the time
 LINGERS = 1e-3  # largest change over a period of a motion that stays near an unstable cycle
 RISE = 1.5  # factor between changes of periods that shows growth
-# largest share of a departure outside the leading eigenspace
-LARGEST_OUTSIDE = 0.25
+LARGEST_OUTSIDE = 0.25  # share of a departure outside the leading eigenspace
 SLOW_DEPARTURE = 0.2  # growth rate, 1/s, up to which a departure is extrapolated
 # shares of `NEAR` up to which it is, as long as its growth rate differs from the multiplier's by no
 # more than this, relative
@@ -91,21 +98,13 @@ class NearCycle:
     def leading(self) -> ComplexArray:
         """Left eigenvector of the leading multiplier, (n,): its product with a distance is the
         multiplier's part of it."""
-        values, vectors = np.linalg.eig(self.jacobian.T)
-        return np.asarray(vectors[:, np.argmax(np.abs(values))], dtype=complex)
+        return _leading(self.jacobian.T, np.abs)
 
     @cached_property
     def right(self) -> ComplexArray:
         """Right eigenvector of the leading multiplier, (n,), whose product with `leading` is one."""
-        values, vectors = np.linalg.eig(self.jacobian)
-        right = vectors[:, np.argmax(np.abs(values))]
+        right = _leading(self.jacobian, np.abs)
         return np.asarray(right / (self.leading @ right), dtype=complex)
-
-    @property
-    def leading_part(self) -> float:
-        """Size of the leading multiplier's part of the distance; above zero, for its logarithm."""
-        part = float(abs(self.leading @ self.distance)) * float(np.linalg.norm(self.right))
-        return max(part, sys.float_info.min)
 
     @property
     def kind(self) -> Outcome:
@@ -114,7 +113,7 @@ class NearCycle:
         if self.cycle.separations:
             return Outcome.SEPARATING
         start = self.map.first_release
-        if start.reached and np.linalg.norm(self.x - start.x) <= NEAR * self.map.deflection:
+        if start.reached and self.map.apart(start.x, self.x) <= NEAR:
             return Outcome.STICK_SLIP
         cycle = find_cycle(self.cycle.parameters)
         same_period = math.isclose(cycle.period, self.cycle.period, rel_tol=ARRIVED)
@@ -133,31 +132,30 @@ class NearCycle:
         predict. On a section of a single point it is on the cycle."""
         return not len(x) or any(self._is_linear(x - self.x, times) for times in TEST_TIMES)
 
-    def after(self, wait: float) -> tuple[Array, float] | None:
-        """The point of the motion after a time of about `wait` (s), and the time; None if it does
-        not return."""
-        x = self.x + self.distance
+    def after(self, wait: float) -> "NearCycle | None":
+        """The motion after a time of about `wait` (s); None if it does not return."""
         if not wait:
-            return x, self.time
-        orbit = self._advance(x, max(1, round(wait / self.cycle.period)), coarse=False)
-        return (orbit.end, self.time + orbit.period) if orbit.returned else None
+            return self
+        periods = max(1, round(wait / self.cycle.period))
+        orbit = self._advance(self.x + self.distance, periods, coarse=False)
+        if not orbit.returned:
+            return None
+        return replace(self, distance=orbit.end - self.x, time=self.time + orbit.period)
 
     def stays_linear_until(self, horizon: float) -> bool:
         """Whether a motion that leaves an unstable cycle is still near it at the horizon (s), as
         the linear map predicts."""
         periods = self._periods_left(horizon)
         near = NEAR * self.map.deflection
-        # the leading part alone excludes most motions
-        growth = periods * math.log(abs(self.cycle.multipliers[0]))
-        if not math.log(self.leading_part) + growth <= math.log(2 * near):
+        # the leading part alone excludes most motions, of which powers might overflow
+        if not periods * self._growth + math.log(self._leading_part) <= math.log(2 * near):
             return False
-        distance = np.linalg.matrix_power(self.jacobian, periods) @ self.distance
+        distance = self._ahead(periods)
         if not np.linalg.norm(distance) <= near:
             return False
-        excess = self._excess_rate(distance)
-        if excess is not None and abs(excess) <= LARGEST_OUTSIDE:
-            return True
-        return self._is_linear(distance, TEST_TIMES[0])
+        return abs(self._excess_rate(distance)) <= LARGEST_OUTSIDE or self._is_linear(
+            distance, TEST_TIMES[0]
+        )
 
     def extrapolate(self, latest: float) -> tuple[Array, float] | None:
         """Where a motion that slowly leaves an unstable cycle comes to as long as the linear map
@@ -168,32 +166,48 @@ class NearCycle:
         distances, as the motion might settle on a torus at any of them. It rises with the square of
         the distance, so that half of it has come together on the way.
         """
-        cycle = self.cycle
-        if cycle.growth_rate > SLOW_DEPARTURE:
+        rate = self.cycle.growth_rate
+        if rate > SLOW_DEPARTURE:
             return None
-        growth = math.log(abs(cycle.multipliers[0]))
         tested = TEST_TIMES[-1][-1]  # the test after it ends within `NEAR`
-        factor = math.exp(cycle.growth_rate * tested)
+        factor = math.exp(rate * tested)
         last = self._periods_left(latest)
         reached = None
         for share in DEPARTURES:
             size = share * NEAR / factor * self.map.deflection
-            periods = min(math.floor(math.log(size / self.leading_part) / growth), last)
-            if periods <= 0:
-                continue
-            distance = np.linalg.matrix_power(self.jacobian, periods) @ self.distance
-            if self._share_outside(distance) > LARGEST_OUTSIDE:
+            periods = min(math.floor(math.log(size / self._leading_part) / self._growth), last)
+            distance = self._ahead(max(periods, 0))
+            if periods <= 0 or self._share_outside(distance) > LARGEST_OUTSIDE:
                 continue  # parts of other multipliers have not decayed yet
-            excess = None
+            excess = math.inf
             if np.linalg.norm(distance) <= NEAR * self.map.deflection:
                 excess = self._excess_rate(distance)
-            if excess is None or abs(excess) > LARGEST_EXCESS:
+            if abs(excess) > LARGEST_EXCESS:
                 break
             gained = excess * tested / (factor**2 - 1)
-            reached = self.x + distance, self.time + periods * cycle.period - gained
+            reached = self.x + distance, self.time + periods * self.cycle.period - gained
             if periods == last:
                 break
         return reached
+
+    @property
+    def _growth(self) -> float:
+        """Logarithm of the leading multiplier's modulus."""
+        return math.log(abs(self.cycle.multipliers[0]))
+
+    @property
+    def _leading_part(self) -> float:
+        """Size of the leading multiplier's part of the distance; above zero, for its logarithm."""
+        part = float(abs(self.leading @ self.distance)) * float(np.linalg.norm(self.right))
+        return max(part, sys.float_info.min)
+
+    def _periods_left(self, horizon: float) -> int:
+        """Periods of the cycle from `time` to the horizon (s)."""
+        return max(0, math.ceil((horizon - self.time) / self.cycle.period))
+
+    def _ahead(self, periods: int) -> Array:
+        """The distance after some periods by the linear map."""
+        return np.linalg.matrix_power(self.jacobian, periods) @ self.distance
 
     def _advance(self, x: Array, periods: int, *, coarse: bool = True) -> Orbit:
         """The motion from a point of the section over some periods of the cycle."""
@@ -205,57 +219,48 @@ class NearCycle:
             coarse=coarse,
         )
 
-    def _orbits(
-        self, distance: Array, times: Sequence[float], coarse: bool = True
-    ) -> Iterator[tuple[int, Orbit]]:
-        """The motion from a distance to about these times (s): periods since the last, and the
-        orbit."""
+    def _motion(
+        self, distance: Array, times: Sequence[float]
+    ) -> Iterator[tuple[Array, Array, float]]:
+        """The motion from a distance on, at about these times (s), as long as it returns: its distance,
+        that of the linear motion, and the time since the last."""
+        # the errors of coarse orbits would matter at a smaller distance
+        coarse = bool(np.linalg.norm(distance) > SAME_POINT * self.map.deflection)
         x = self.x + distance
+        expected = distance
         done = 0
         for i, time in enumerate(times, 1):
-            count = max(i, round(time / self.cycle.period))
-            orbit = self._advance(x, count - done, coarse=coarse)
-            yield count - done, orbit
+            count = max(i, round(time / self.cycle.period)) - done
+            orbit = self._advance(x, count, coarse=coarse)
+            if not orbit.returned:
+                return
             x = orbit.end
-            done = count
-
-    def _periods_left(self, horizon: float) -> int:
-        """Periods of the cycle from `time` to the horizon (s)."""
-        return max(0, math.ceil((horizon - self.time) / self.cycle.period))
+            expected = np.linalg.matrix_power(self.jacobian, count) @ expected
+            yield x - self.x, expected, count * self.cycle.period
+            done += count
 
     @np.errstate(over="ignore", invalid="ignore")  # powers of a strongly unstable cycle's Jacobian
     def _is_linear(self, distance: Array, times: tuple[float, float]) -> bool:
         """Whether the motion at that distance departs from the cycle, or approaches it, as its
         multipliers predict."""
-        cycle = self.cycle
-        least = ARRIVED * self.map.deflection if cycle.stable else 0.0
-        # the errors of coarse orbits would matter at a smaller distance
-        coarse = bool(np.linalg.norm(distance) > SAME_POINT * self.map.deflection)
-        expected = distance
-        parts = list[float]()
-        periods = 0
-        for periods, orbit in self._orbits(distance, times, coarse):
-            expected = np.linalg.matrix_power(self.jacobian, periods) @ expected
-            apart = orbit.end - self.x
-            if not (orbit.returned and _is_close(apart, expected, least)):
-                return False
-            parts.append(float(abs(self.leading @ apart)))
-        return _grows_at_rate(parts, periods * cycle.period, cycle.growth_rate, least)
+        least = ARRIVED * self.map.deflection if self.cycle.stable else 0.0
+        motion = self._motion(distance, times)
+        return _is_as_expected(motion, self.leading, self.cycle.growth_rate, least)
 
-    def _excess_rate(self, distance: Array) -> float | None:
-        """Relative excess of the growth rate over the leading multiplier's; None unless the motion
-        departs. Its phase, which drifts with the amplitude long before the growth rate does and
-        matters only near borders, is ignored."""
-        before = float(abs(self.leading @ distance))
+    def _excess_rate(self, distance: Array) -> float:
+        """Relative excess of the growth rate over the leading multiplier's; infinite unless the
+        motion departs. Its phase, which drifts with the amplitude long before the growth rate does
+        and matters only near borders, is ignored."""
         apart = distance
-        count = 0
-        for periods, orbit in self._orbits(distance, TEST_TIMES[-1]):
-            apart = orbit.end - self.x
-            count += periods
-            if not (orbit.returned and self._share_outside(apart) <= LARGEST_OUTSIDE):
-                return None
-        rate = math.log(abs(self.leading @ apart) / before) / (count * self.cycle.period)
-        return float(rate / self.cycle.growth_rate - 1)
+        durations = []
+        for apart, _, duration in self._motion(distance, TEST_TIMES[-1]):
+            durations.append(duration)
+            if not self._share_outside(apart) <= LARGEST_OUTSIDE:
+                return math.inf
+        if len(durations) < 2:
+            return math.inf
+        grown = math.log(abs(self.leading @ apart) / abs(self.leading @ distance))
+        return float(grown / sum(durations) / self.cycle.growth_rate - 1)
 
     def _share_outside(self, distance: Array) -> float:
         """Share of a distance from the cycle that lies outside the leading multiplier's
@@ -266,19 +271,32 @@ class NearCycle:
         return float(np.linalg.norm(distance - within) / np.linalg.norm(distance))
 
 
-def _is_close(apart: Array, expected: Array, least: float) -> bool:
-    """Whether a distance is the expected one, but for `LARGEST_ERROR` of it, or for `least`."""
-    largest = max(LARGEST_ERROR * float(np.linalg.norm(expected)), least)
-    return bool(np.linalg.norm(apart - expected) <= largest)
+def _leading(matrix: Array, size: Callable[[ComplexArray], Array]) -> ComplexArray:
+    """The right eigenvector of the eigenvalue of the largest size."""
+    values, vectors = np.linalg.eig(matrix)
+    return np.asarray(vectors[:, np.argmax(size(values))], dtype=complex)
 
 
-def _grows_at_rate(parts: Sequence[float], time: float, rate: float, least: float) -> bool:
-    """Whether the leading part grows at a rate (1/s) between two times, or has fallen to
-    `least`."""
-    if not min(parts) > 0 or parts[1] <= least:
-        return parts[1] <= least
-    error = math.log(parts[1] / parts[0]) / time - rate
-    return abs(error) <= LARGEST_RATE_ERROR * abs(rate)
+def _is_as_expected(
+    motion: Iterable[tuple[Array, Array, float]], leading: ComplexArray, rate: float, least: float
+) -> bool:
+    """Whether a motion is the linear one at two times, but for `LARGEST_ERROR` of it or for a distance
+    `least`, and the leading part grows at a rate (1/s) between them, or has fallen to `least`.
+
+    motion : distance, that of the linear motion, and time since the last (s)
+    """
+    parts = list[tuple[float, float]]()
+    for apart, expected, duration in motion:
+        largest = max(LARGEST_ERROR * float(np.linalg.norm(expected)), least)
+        if not np.linalg.norm(apart - expected) <= largest:
+            return False
+        parts.append((float(abs(leading @ apart)), duration))
+    if len(parts) < 2:
+        return False
+    (before, _), (after, duration) = parts
+    if after <= least or before == 0:
+        return after <= least
+    return abs(math.log(after / before) / duration - rate) <= LARGEST_RATE_ERROR * abs(rate)
 
 
 def cycle_of_static_start(p: Parameters) -> NearCycle | FloquetResult:
@@ -302,7 +320,7 @@ def find_cycle_near(
     if not change <= NEAR / 2:
         return None
     orbit = newton(map_, release.x, releases=releases, may_separate=map_.patient)
-    if orbit is None or np.linalg.norm(orbit.start - release.x) > NEAR * map_.deflection:
+    if orbit is None or map_.apart(orbit.start, release.x) > NEAR:
         return None
     cycle = cycle_of(map_, run_through_once(map_, orbit))
     return _relate(map_, cycle, release, WAITS if cycle.stable else unstable)
@@ -313,7 +331,7 @@ def close_return(map_: ReturnMap, x: Array, most: int = LARGEST_PERIOD) -> tuple
     about least: change over the static deflection, and number of releases; nan and 0 if the motion
     does not return to the section at all."""
     later = map_.returns(x, most, may_separate=map_.patient, coarse=True)
-    changes = [float(np.linalg.norm(point - x) / map_.deflection) for point in later]
+    changes = [map_.apart(point, x) for point in later]
     for i, change in enumerate(changes, 1):
         if change <= 2 * min(changes):
             return change, i
@@ -329,18 +347,11 @@ def _relate(
     x = map_.point(cycle.state)
     orbit = map_.evaluate(x, releases=cycle.releases, may_separate=cycle.separations > 0)
     near = NearCycle(cycle, False, map_, x, release.x - x, orbit.jacobian, release.time)
-    if not release.reached:
-        return near
-    waited = 0.0
-    moving = near
+    moving: NearCycle | None = near if release.reached else None
     for wait in waits:
-        later = moving.after(max(0.0, wait - waited))
-        if later is None:
-            break
-        point, time = later
-        waited = time - release.time
-        moving = replace(moving, distance=point - x, time=time)
-        if near.follows_multipliers(point):
+        if moving is not None:
+            moving = moving.after(max(0.0, wait - (moving.time - release.time)))
+        if moving is not None and near.follows_multipliers(x + moving.distance):
             return replace(moving, follows_cycle=True)
     return near
 
@@ -351,7 +362,7 @@ _sliding = lru_cache(maxsize=1)(steady_sliding)  # needed at the end of each leg
 def find_equilibrium(p: Parameters, leg: Result) -> Outcome | None:
     """At rest if the slider sticks for good, steady sliding if it is stable and the motion
     approaches it; None if neither is shown."""
-    if shares(leg).stick == 1 and never_pulls(p):
+    if stick_share(leg) == 1 and never_pulls(p):
         return Outcome.AT_REST
     return Outcome.STEADY_SLIDING if approaches_sliding(p, leg.final_state) else None
 
@@ -371,8 +382,7 @@ def departs_from_sliding(p: Parameters, state: State) -> bool:
         return False
     first, last = TEST_TIMES[-1]
     shorter = min(1.0, 1 / _sliding(p).growth_rate / last)
-    times = (shorter * first, shorter * last)
-    return _follows_eigenvalues(p, state, times, 0.0, math.inf)
+    return _follows_eigenvalues(p, state, (shorter * first, shorter * last), 0.0, math.inf)
 
 
 def _follows_eigenvalues(
@@ -391,33 +401,31 @@ def _follows_eigenvalues(
     modes = mode_arrays(p)
     scale = np.sqrt(energy_weights(p))  # by it the norm of rows is that of the energy
     jacobian = scale[:, None] * sliding.jacobian / scale
-    expected = scale * (rows_of_state(p, state) - sliding.rows)
+    distance = scale * (rows_of_state(p, state) - sliding.rows)
     static = p.N * float(np.linalg.norm(modes.psi / modes.omega))
     if static == 0:  # a rigid disc: the spring in the plane, bent up to the limit of friction
         static = p.mu_s * p.N / math.sqrt(p.k_p)
-    least = arrived * static
-    if not np.linalg.norm(expected) <= farthest * static:
+    if not np.linalg.norm(distance) <= farthest * static:
         return False
 
-    # slow to import, and few motions come so near
-    from scipy.linalg import expm
+    def motion() -> Iterator[tuple[Array, Array, float]]:
+        expected = distance
+        before = 0.0
+        for time in times:
+            end = state.time + time
+            run = simulate(p, end, tol=TEST_TOL, initial_state=state, events=False)
+            if not run.status.complete or run.final_state.phase != "slip":
+                return
+            expected = expm(jacobian * (time - before)) @ expected
+            yield (
+                scale * (rows_of_state(p, run.final_state) - sliding.rows),
+                expected,
+                time - before,
+            )
+            before = time
 
-    values, vectors = np.linalg.eig(jacobian.T)
-    leading = vectors[:, np.argmax(values.real)]
-    parts = list[float]()
-    before = 0.0
-    for time in times:
-        end = state.time + time
-        result = simulate(p, end, tol=TEST_TOL, initial_state=state, events=False)
-        if not result.status.complete or result.final_state.phase != "slip":
-            return False
-        apart = scale * (rows_of_state(p, result.final_state) - sliding.rows)
-        expected = expm(jacobian * (time - before)) @ expected
-        if not _is_close(apart, expected, least):
-            return False
-        parts.append(float(abs(leading @ apart)))
-        before = time
-    return _grows_at_rate(parts, times[1] - times[0], sliding.growth_rate, least)
+    leading = _leading(jacobian.T, np.real)
+    return _is_as_expected(motion(), leading, sliding.growth_rate, arrived * static)
 
 
 # ---- The search for an outcome
@@ -489,6 +497,11 @@ class OutcomeResult:
         """Why the simulation failed; empty if it did not."""
         return "" if self.failed is None else self.failed.message
 
+    def note_change(self, change: float) -> None:
+        """Note how nearly the motion repeats."""
+        self.times.append(self.time)
+        self.changes.append(change)
+
 
 OPEN = (None, Outcome.SEPARATION, Outcome.GROWING, Outcome.UNDECIDED)
 """Outcomes of motions that have not come to a cycle or an equilibrium."""
@@ -522,36 +535,30 @@ def find_outcome(
     that settles, is simulated from its start all the same: a small error decides to which attractor
     an irregular motion comes.
     """
-    map_: ReturnMap | None = None
-    if isinstance(near, NearCycle):
-        map_ = near.map  # a new one takes as long as a return to the section ten times over
-    elif may_stick_and_slip(p):
+    # a return map takes as long as a return to the section ten times over
+    map_ = near.map if isinstance(near, NearCycle) else None
+    if map_ is None and may_stick_and_slip(p):
         map_ = ReturnMap(p)
-    start_cycle: NearCycle | None = None
-    if early and start is None and map_ is not None:
-        known = cycle_of_static_start(p) if near is None else near
-        start_cycle = known if isinstance(known, NearCycle) else None
-    search = _Search(p, horizon, tol, early, late, map_, start_cycle)
-    rough = search.run(start, extrapolate=bool(compared_with))
-    if not rough.extrapolated:
-        return rough
+    if near is None and early and start is None and map_ is not None:
+        near = cycle_of_static_start(p)
+    cycle: NearCycle | None = None
+    if isinstance(near, NearCycle) and near.follows_cycle and early and start is None:
+        cycle = near
+    search = _Search(p, horizon, tol, early, late, map_)
+    rough = search.run(start, cycle, extrapolate=bool(compared_with))
     separation = rough.first_separation
     is_near = any(abs(separation - other) <= BORDER * other for other in compared_with)
-    if rough.outcome in OPEN and not is_near:
+    if not rough.extrapolated or (rough.outcome in OPEN and not is_near):
         return rough
-    result = search.run(start, extrapolate=False)
+    result = search.run(start, cycle, extrapolate=False)
     result.simulated += rough.simulated
     return result
 
 
-@dataclass(eq=False)
+@dataclass(frozen=True, eq=False)
 class _Search:
-    """A search for the outcome of a motion; arguments as in `find_outcome`.
-
-    map : the return map of the case; None if it has no stick-slip
-    start_cycle : the cycle near the static start; None if the motion starts elsewhere, or must be
-        followed to the horizon
-    """
+    """A search for the outcome of a motion; arguments as in `find_outcome`, and the return map of the
+    case, None if it has no stick-slip."""
 
     p: Parameters
     horizon: float
@@ -559,20 +566,23 @@ class _Search:
     early: bool
     late: float
     map: ReturnMap | None
-    start_cycle: NearCycle | None
 
-    def run(self, start: State | None, *, extrapolate: bool) -> OutcomeResult:
-        """Follow the motion until it settles or loses contact, or to the horizon."""
+    def run(
+        self, start: State | None, cycle: NearCycle | None, *, extrapolate: bool
+    ) -> OutcomeResult:
+        """Follow the motion, which may follow a cycle from its first release on, until it settles or
+        loses contact, or to the horizon."""
         result = OutcomeResult(state=start)
         departs = False  # from something unstable
         leg = FIRST_LEG
         end = self.horizon
-        cycle = self.start_cycle
-        if cycle is not None and not cycle.follows_cycle:
-            cycle = None
         while True:
-            if cycle is not None and cycle.cycle.stable:
-                return self._on_cycle(result, cycle)
+            if cycle is not None and cycle.cycle.stable:  # it is on it for good
+                result.near = cycle
+                result.outcome = cycle.kind
+                result.time = cycle.time
+                result.distance = float(np.linalg.norm(cycle.distance)) / cycle.map.deflection
+                return result
             if cycle is not None:
                 result.near = result.near or cycle
                 departs = True
@@ -603,32 +613,18 @@ class _Search:
                 return result
             if examined and not departs and slips_on(run):
                 departs = departs_from_sliding(self.p, run.final_state)
-            cycle = self._cycle_at(result, run, examined)
-
-    def _on_cycle(self, result: OutcomeResult, near: NearCycle) -> OutcomeResult:
-        """The result of a motion that follows a stable cycle: it is on it for good."""
-        result.near = near
-        result.outcome = near.kind
-        result.time = near.time
-        result.distance = float(np.linalg.norm(near.distance)) / near.map.deflection
-        return result
+            cycle = self._cycle_at(result, run.final_state, examined)
 
     def _extrapolate(self, result: OutcomeResult, near: NearCycle) -> bool:
         """Go on from where a slow departure ceases to be linear, if that is later."""
         departure = near.extrapolate(self.horizon)
         if departure is None or departure[1] <= result.time:
             return False
-        x, time = departure
-        result.state = near.map.state(x).replace(time=time)
-        result.time = time
+        x, result.time = departure
+        result.state = near.map.state(x).replace(time=result.time)
         result.extrapolated = True
-        self._note_change(result, close_return(near.map, x)[0])
+        result.note_change(close_return(near.map, x)[0])
         return True
-
-    def _note_change(self, result: OutcomeResult, change: float) -> None:
-        """Note how nearly the motion repeats."""
-        result.times.append(result.time)
-        result.changes.append(change)
 
     def _simulate(self, result: OutcomeResult, leg: float, end: float) -> Result:
         """Simulate a leg to its end or the first separation; the segment to be described is a leg
@@ -636,11 +632,10 @@ class _Search:
         mark = end - self.late if result.time < end - self.late else end
         stop = min(result.time + leg, mark)
         described = bool(self.late) and stop == end
-        windows = late_window(result.time, stop) if described else {}
         run = simulate(
             self.p,
             stop,
-            windows,
+            late_window(result.time, stop) if described else {},
             tol=self.tol,
             initial_state=result.state,
             stop_at="first_separation",
@@ -652,27 +647,32 @@ class _Search:
         result.time = run.final_state.time
         return run
 
-    def _cycle_at(self, result: OutcomeResult, run: Result, examined: bool) -> NearCycle | None:
+    def _cycle_at(self, result: OutcomeResult, state: State, examined: bool) -> NearCycle | None:
         """The cycle that the motion follows from its next release on; None if there is none, or
         while it departs from another one."""
         if self.map is None:
             return None
-        release = self.map.next_release(run.final_state)
+        release = self.map.next_release(state)
         if not release.reached:
             return None
         change, releases = close_return(self.map, release.x)
-        self._note_change(result, change)
-        if not examined or (result.near is not None and self._departs(result.changes)):
+        result.note_change(change)
+        known = [each for each in result.changes if not math.isnan(each)]
+        # a motion that comes to a cycle changes less and less, down to errors of the simulation
+        least = max(ARRIVED, ERROR_OF_TOL * self.tol, *known[-2:][:1])
+        departs = result.near is not None and bool(known) and known[-1] > least
+        if departs or not examined:
             return None
         waits = WAITS if result.near is None else WAITS[:1]
         near = find_cycle_near(self.map, release, change, releases, unstable=waits)
         return near if near is not None and near.follows_cycle else None
 
-    def _departs(self, changes: Sequence[float]) -> bool:
-        """Whether the last change of a period exceeds the one before. A motion that comes to a cycle
-        changes less and less, down to errors of the simulation."""
-        known = [change for change in changes if not math.isnan(change)]
-        return bool(known) and known[-1] > max(known[-2:][0], ARRIVED, ERROR_OF_TOL * self.tol)
+
+def slips_on(leg: Result) -> bool:
+    """Whether a leg has only slip in its later half. Slip between two sticks, where a motion is
+    linear as well, is shorter than any leg."""
+    later = leg.final_state.time - duration_of(leg) / 2
+    return leg.final_state.phase == "slip" and not np.any(leg.event_rows[:, TIME] > later)
 
 
 def growing(changes: Sequence[float]) -> bool:

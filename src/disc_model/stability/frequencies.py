@@ -8,7 +8,7 @@ mode's.
 import math
 
 import numpy as np
-from numpy.typing import NDArray
+from scipy.optimize import linear_sum_assignment
 
 from disc_model.arrays import Array, ComplexArray
 from disc_model.disc.plate import mode_arrays
@@ -40,14 +40,15 @@ def frequencies(p: Parameters, *, tol: float = 1e-12) -> tuple[FloquetResult, Sl
     map_ = ReturnMap(p, tol)
     orbit = map_.evaluate(map_.point(cycle.state), releases=cycle.releases)
     multipliers, vectors = np.linalg.eig(orbit.jacobian)
-    shapes = _shapes_on_section(map_, cycle.state, modes.shapes[:, disc])
+    shapes = _on_section(map_, cycle.state, modes.shapes[:, disc])
 
     # two multipliers may match a mode: one resembles its shape, one the conjugate
     both = np.hstack([shapes.conj(), shapes])
     mac = np.abs(both.T @ (vectors / np.linalg.norm(vectors, axis=0))) ** 2
-    matched = _assign(mac)
-    first = matched[: shapes.shape[1]]
-    other = matched[shapes.shape[1] :]
+    rows, assigned = linear_sum_assignment(-mac)
+    matched = np.full(len(mac), -1)
+    matched[rows] = assigned
+    first, other = matched.reshape(2, -1)
 
     rate = 1 / cycle.period
     angle = np.angle(multipliers[first]) / (2 * math.pi)
@@ -78,51 +79,31 @@ def may_be_near(cycle: FloquetResult) -> bool | None:
     if not motion.returned or distance <= apart:
         return True
     other = newton(map_, motion.end)
-    if other is not None and np.linalg.norm(other.start - own) > apart:
-        is_nearer = np.linalg.norm(other.start - motion.end) < distance
-        return not is_nearer and bool(cycle.growth_rate * motion.period < GROWTH)
-    return bool(cycle.growth_rate * motion.period < GROWTH)
+    is_near_another = (
+        other is not None
+        and np.linalg.norm(other.start - own) > apart
+        and np.linalg.norm(other.start - motion.end) < distance
+    )
+    return not is_near_another and bool(cycle.growth_rate * motion.period < GROWTH)
 
 
-def _assign(mac: Array) -> NDArray[np.intp]:
-    """The column that is assigned to each row of a table of likeness, so that the sum is largest;
-    -1 where there are too few columns."""
-    # slow to import, and the other analyses of a cycle do without
-    from scipy.optimize import linear_sum_assignment
-
-    rows, assigned = linear_sum_assignment(-mac)
-    matched = np.full(len(mac), -1)
-    matched[rows] = assigned
-    return matched
-
-
-def _shapes_on_section(map_: ReturnMap, state: State, shapes: ComplexArray) -> ComplexArray:
+def _on_section(map_: ReturnMap, state: State, shapes: ComplexArray) -> ComplexArray:
     """Shapes of modes of steady sliding, of the length one, as columns in the coordinates of the
-    return map's section."""
+    return map's section, which are linear in them."""
     disc_rows, _, height = split_rows(mode_arrays(map_.parameters), shapes)
     if not len(height):
         height = np.zeros((2, shapes.shape[1]))
-    rows = np.vstack([*disc_rows, height])
-    on_section = np.array([_on_section(map_, state, shape) for shape in rows.T]).T
+
+    def points(rows: list[Array]) -> Array:
+        found = []
+        for a, alpha, b, beta, u, velocity in zip(*(row.T for row in rows), strict=True):
+            modal = {"a": a, "b": b, "alpha": alpha, "beta": beta}
+            # in separation, because in contact the height would be the disc's
+            own = {"phase": "separation", "direction": 0, "_roots": (0, 0)}
+            there = state.replace(u=float(u), u_velocity=float(velocity), **modal, **own)
+            found.append(map_.point(there))
+        return np.array(found).T
+
+    rows = [*disc_rows, *height]
+    on_section = points([row.real for row in rows]) + 1j * points([row.imag for row in rows])
     return np.asarray(on_section / np.linalg.norm(on_section, axis=0), dtype=complex)
-
-
-def _on_section(map_: ReturnMap, state: State, shape: ComplexArray) -> ComplexArray:
-    """A shape in the coordinates of the return map's section, (n,); these are linear in it."""
-    parts = []
-    for part in (shape.real, shape.imag):
-        a, alpha, b, beta = part[:-2].reshape(4, -1)
-        # in separation, because in contact the height would be the disc's
-        separated = state.replace(
-            phase="separation",
-            direction=0,
-            a=a,
-            b=b,
-            alpha=alpha,
-            beta=beta,
-            u=float(part[-2]),
-            u_velocity=float(part[-1]),
-            _roots=(0, 0),
-        )
-        parts.append(map_.point(separated))
-    return np.asarray(parts[0] + 1j * parts[1], dtype=complex)

@@ -31,14 +31,12 @@ class Releases(NamedTuple):
     phases : shape (n,), time since the last separation over the mean interval of separations
     vibrations : shape (n - 1,), number of separations between a release and the next
     vibration : s, mean interval of separations
-    force : N, shape (n,), contact force when stick ends
     """
 
     times: Array
     phases: Array
     vibrations: Indices
     vibration: float
-    force: Array
 
 
 class Lock(NamedTuple):
@@ -73,13 +71,10 @@ def releases_of(run: Result, since: tuple[float, float] | None = None) -> Releas
     if separations.size < FEWEST_SEPARATIONS or released.sum() < 2:
         return None
     instants = times[released]
-    vibration = float(np.mean(np.diff(separations)))
-    if since is not None:
-        vibration = since[1]
+    vibration = float(np.mean(np.diff(separations))) if since is None else since[1]
     before = np.searchsorted(separations, instants)
     phases = (instants - separations[before - 1]) / vibration
-    force = events["P"].to_numpy(dtype=float)[released]
-    return Releases(instants, phases, np.diff(before), vibration, force)
+    return Releases(instants, phases, np.diff(before), vibration)
 
 
 def lock_of(releases: Releases) -> Lock | None:
@@ -94,9 +89,11 @@ def lock_of(releases: Releases) -> Lock | None:
     return Lock(n, vibrations, period, closure(intervals, n))
 
 
-def cycle_at(p: Parameters, state: State, lock: Lock) -> Orbit | None:
-    """The cycle that a locked motion is on, with its shortest period: while the motion still
-    settles, its record may repeat only after several of them. None if Newton's method finds no
+def locked_cycle(
+    p: Parameters, state: State, lock: Lock, releases: Releases
+) -> tuple[Orbit, Lock] | None:
+    """The cycle that a locked motion is on, with its shortest period, and its lock: while the motion
+    still settles, its record may repeat only after several of these. None if Newton's method finds no
     cycle at the motion that repeats after as many releases and separations."""
     map_ = ReturnMap(p, patient=True)
     release = map_.next_release(state)
@@ -105,56 +102,12 @@ def cycle_at(p: Parameters, state: State, lock: Lock) -> Orbit | None:
     orbit = newton(map_, release.x, releases=lock.releases, may_separate=True)
     if orbit is None or orbit.counts.separations != lock.vibrations:
         return None
-    return run_through_once(map_, orbit)
-
-
-def lock_on(cycle: Orbit, releases: Releases, lock: Lock) -> Lock:
-    """The lock of a motion on a cycle: that of the record, unless the cycle has a shorter period."""
-    n = cycle.counts.releases
-    if n == lock.releases:
-        return lock
-    apart = closure(np.diff(releases.times), n)
-    return Lock(n, cycle.counts.separations, cycle.period, apart)
-
-
-def swing_multiplier(p: Parameters, run: Result, lock: Lock) -> float:
-    """The multiplier of a locked motion that belongs to its release phases, by the swings of the
-    slider: the product over a period of cos(w t) - kappa sin(w t), where t is the time that a slip
-    lasts, w = sqrt(k_p / m), and
-
-        kappa = (mu_s - mu_k) P / (r_0 m w rho),  rho = Omega - mu_s P' / (r_0 k_p)
-
-    with the force P and its rate P' when stick ends. This is that of a given vibration, and without
-    damper in the plane; nan if the run has no whole period, or if friction varies with the slip
-    speed.
-
-    run : with its events, and the samples `FORCE` of the contact force
-    """
-    if p.friction_decay < math.inf or p.viscous_friction != 0:
-        return math.nan
-    events = run.events
-    kinds = events["kind"].to_numpy()
-    times = events["time"].to_numpy(dtype=float)
-    stops = times[kinds == "slip_to_stick"]
-    releases = times[kinds == "stick_to_slip"][: lock.releases]
-    ends = np.searchsorted(stops, releases)
-    if len(releases) < lock.releases or ends.max() >= len(stops):
-        return math.nan
-
-    # the force when stick ends, and its rate, from the last three samples of stick
-    sampled = run["force"]
-    instants = sampled["time"].values
-    force = sampled["P"].values
-    last = np.searchsorted(instants, releases) - 1
-    step = instants[1] - instants[0]
-    rate = (3 * force[last] - 4 * force[last - 1] + force[last - 2]) / (2 * step)
-    at_end = force[last] + rate * (releases - instants[last])
-
-    swing = math.sqrt(p.k_p / p.m)
-    rho = p.Omega - p.mu_s * rate / (p.r_0 * p.k_p)
-    kappa = (p.mu_s - p.mu_k) * at_end / (p.r_0 * p.m * swing * rho)
-    angle = swing * (stops[ends] - releases)
-    return float(np.prod(np.cos(angle) - kappa * np.sin(angle)))
+    orbit = run_through_once(map_, orbit)
+    n = orbit.counts.releases
+    if n < lock.releases:
+        apart = closure(np.diff(releases.times), n)
+        lock = Lock(n, orbit.counts.separations, orbit.period, apart)
+    return orbit, lock
 
 
 class PhaseMap(NamedTuple):
@@ -182,8 +135,7 @@ def phase_map(p: Parameters, run: Result, count: int, tol: float) -> PhaseMap:
     by `count` different amounts that friction can hold. It is released as the contact force falls,
     the later the less the spring is stretched, and then moves freely to its next release.
     """
-    empty = np.empty(0)
-    nothing = PhaseMap(empty, empty, np.empty(0, dtype=np.int64), empty)
+    nothing = PhaseMap(np.empty(0), np.empty(0), np.empty(0, dtype=np.int64), np.empty(0))
     found = releases_of(run)
     if found is None:
         return nothing
@@ -196,33 +148,28 @@ def phase_map(p: Parameters, run: Result, count: int, tol: float) -> PhaseMap:
     begin = lost + HELD * vibration
     windows = {"force": Window(start=start.time, stop=begin, rate=100 / (begin - start.time))}
     before = simulate(p, begin, windows, tol=tol, initial_state=start)
-    force = float(before["force"]["P"].values[-1])
-    largest = p.mu_s * force / (p.r_0 * p.k_p)
+    largest = p.mu_s * float(before["force"]["P"].values[-1]) / (p.r_0 * p.k_p)
     held = before.final_state.replace(f=0.0, direction=0, phase="stick")
-    stretches = largest * np.linspace(-1, 1, count + 2)[1:-1]
 
     def follow(stretch: float) -> Releases | None:
         """The releases after the slider has been held with the spring stretched by an angle; None
         if the first one is backward."""
-        state = held.replace(psi=stretch)
         end = begin + LONGEST_WAY * vibration
-        after = simulate(p, end, tol=tol, initial_state=state)
+        after = simulate(p, end, tol=tol, initial_state=held.replace(psi=stretch))
         is_release = after.events["kind"] == "stick_to_slip"
-        if not (after.events["psi"][is_release].iloc[:1] > 0).all():
-            return None
-        return releases_of(after, since=(lost, vibration))
+        is_forward = (after.events["psi"][is_release].iloc[:1] > 0).all()
+        return releases_of(after, since=(lost, vibration)) if is_forward else None
 
     rows = []
-    for stretch in stretches.tolist():
-        first = follow(stretch)
-        second = follow(stretch + NUDGE * largest)
+    for stretch in (largest * np.linspace(-1, 1, count + 2)[1:-1]).tolist():
+        first, second = follow(stretch), follow(stretch + NUDGE * largest)
         if first is None or second is None:
             continue
         slope = math.nan
         if first.vibrations[0] == second.vibrations[0]:
             change = second.phases[:2] - first.phases[:2]
             slope = float(change[1] / change[0])
-        rows.append((first.phases[0], first.phases[1], first.vibrations[0], slope))
+        rows.append((*first.phases[:2], first.vibrations[0], slope))
     if not rows:
         return nothing
     phases, following, vibrations, slopes = np.array(sorted(rows), dtype=float).T

@@ -7,20 +7,20 @@ to it.
 """
 
 import math
-import sys
-from dataclasses import dataclass, replace
-from typing import Any
+from dataclasses import dataclass
+from typing import Annotated, Any
 
 import numpy as np
+from pydantic import Field, InstanceOf
 
-from disc_model.arrays import EqualByValue, Indices, Mask
+from disc_model.arrays import Array, EqualByValue, Indices, Mask
 from disc_model.display import drawings
 from disc_model.engine import columns, loop, model, saltation, transitions
 from disc_model.engine import state as motion
 from disc_model.engine.jit.cache import compiling
 from disc_model.engine.series import build_series
-from disc_model.errors import Status, as_text, raise_faults, violations
-from disc_model.parameters import Parameters, foreign_case
+from disc_model.errors import Status, require
+from disc_model.parameters import Parameters
 from disc_model.simulation.states import (
     State,
     engine_case,
@@ -29,10 +29,10 @@ from disc_model.simulation.states import (
     series_tolerance,
     write_state,
 )
-from disc_model.stability.return_map import ENDS, Array, integrate_in_pieces, longest_step
-from disc_model.units import TOLERANCES, is_number, is_whole, limits_faults
+from disc_model.stability.return_map import ENDS, integrate_in_pieces, longest_step
+from disc_model.units import Count, Seconds, Tolerance, checked
 
-_BLOCKS = 16
+_BLOCKS = 16  # segments of the averaging time
 # orthonormalisations in the averaging time: hours of work, and 600 MB of logarithms
 MOST_INTERVALS = 10_000_000
 CLEAR = 4.0  # an exponent differs from zero if it exceeds this many of its errors
@@ -67,8 +67,8 @@ class Lyapunov(EqualByValue):
     separations: int
     converged: Mask
     final_state: State
-    trivial_exponent: float = math.nan
-    parameters: Parameters | None = None
+    trivial_exponent: float
+    parameters: Parameters
 
     def __repr__(self) -> str:
         exponents = " and ".join(f"{exponent:.3g}" for exponent in self.exponents)
@@ -80,15 +80,16 @@ class Lyapunov(EqualByValue):
         return drawings().exponents(ax, self, **look)
 
 
+@checked
 @compiling()
 def lyapunov_exponents(
     case: Parameters,
-    duration: float,
+    duration: Seconds,
     *,
-    count: int = 2,
-    interval: float = 0.01,
-    initial_state: State | None = None,
-    tol: float = 1e-10,
+    count: Annotated[Count, Field(ge=1)] = 2,
+    interval: Seconds = 0.01,
+    initial_state: InstanceOf[State] | None = None,
+    tol: Tolerance = 1e-10,
     leave_out_trivial: bool = False,
 ) -> Lyapunov:
     """The `count` largest Lyapunov exponents of the motion.
@@ -123,11 +124,13 @@ def lyapunov_exponents(
     >>> dm.lyapunov_exponents(case, 5, initial_state=dm.floquet(case).state, leave_out_trivial=True)
     Lyapunov(ok, over 5 s: -0.143 and -0.166 1/s)
     """
-    raise_faults(foreign_case(case))
-    wrong = _faults(case, duration, count, interval, initial_state, leave_out_trivial)
-    raise_faults(limits_faults("tol", tol, TOLERANCES) + wrong)
-    tol = float(tol)
     computed = engine_case(case)
+    coordinates = len(columns.coordinate_rows(computed.model))
+    most = min(columns.COLUMNS_AT_ONCE, coordinates) - int(leave_out_trivial)
+    require(
+        (count <= most, "count", count, f"must be a whole number from 1 to {most}"),
+        (interval * MOST_INTERVALS >= duration, "interval", interval, "is too short"),
+    )
     order = series_order(tol)
     tolerance = series_tolerance(tol, compliant=case.contact_compliance != 0)
     series = build_series(computed.model, order)
@@ -144,8 +147,8 @@ def lyapunov_exponents(
         frame.put_motion_first(state)
 
     # the same number of intervals for convergence, counted below zero, and for the averages
-    steps = max(_BLOCKS, math.ceil(float(duration) / float(interval)))
-    length = float(duration) / steps
+    steps = max(_BLOCKS, math.ceil(duration / interval))
+    length = duration / steps
     longest = longest_step(computed.model, order, 10 * tolerance)
     limits = loop.FlightLimits(
         order, tolerance, longest, length, 0, may_separate=True, tangent=True
@@ -167,39 +170,47 @@ def lyapunov_exponents(
         if i >= 0:
             logs[i, frame.remaining] = growth
             done = i + 1
-    end = read_state(computed, state)
+
+    exponents, errors, converged = averages(logs[:done], length)
+    ranked = np.argsort(-exponents, kind="stable")
+    trivial = math.nan
+    # a motion at rest or in steady sliding has no trivial exponent
     log = frame.tangent.log
-    found = _averaged(status, logs[:done], length, count, log, end, leave_out_trivial)
-    return replace(found, parameters=case)
-
-
-def _faults(
-    p: Parameters,
-    duration: Any,
-    count: Any,
-    interval: Any,
-    initial_state: Any,
-    leave_out_trivial: Any,
-) -> list[str]:
-    """Faults of arguments of `lyapunov_exponents`, of a case that has none."""
-    is_choice = isinstance(leave_out_trivial, bool | np.bool_)
-    most = min(columns.COLUMNS_AT_ONCE, len(columns.coordinate_rows(engine_case(p).model)))
-    if is_choice and leave_out_trivial:
-        most -= 1
-    counts = is_whole(count) and 1 <= count <= most
-    lasts = is_number(duration) and sys.float_info.min <= duration < math.inf
-    shortest = sys.float_info.min
-    if lasts:
-        shortest = max(duration / MOST_INTERVALS, shortest)
-    fits = is_number(interval) and shortest <= interval < math.inf
-    is_state = isinstance(initial_state, State | None)
-    return violations(
-        (lasts, "duration", duration, "must be finite and > 0"),
-        (counts, "count", count, f"must be a whole number from 1 to {most}"),
-        (fits, "interval", interval, f"must be finite and >= {as_text(shortest)}"),
-        (is_state, "initial_state", initial_state, "must be a State"),
-        (is_choice, "leave_out_trivial", leave_out_trivial, "must be True or False"),
+    events = log[columns.RELEASES] + log[columns.STICKS] + log[columns.SEPARATIONS]
+    if leave_out_trivial and events > 0:
+        trivial = float(exponents[0])
+        ranked = ranked[ranked != 0]
+    ranked = ranked[:count]
+    return Lyapunov(
+        status=status,
+        exponents=exponents[ranked],
+        errors=errors[ranked],
+        duration=done * length,
+        separations=int(log[columns.SEPARATIONS]),
+        converged=converged[ranked],
+        final_state=read_state(computed, state),
+        trivial_exponent=trivial,
+        parameters=case,
     )
+
+
+def averages(logs: Array, interval: float) -> tuple[Array, Array, Mask]:
+    """Exponents, their errors, and whether they have converged, (m,) each, from logarithms of growth
+    over equal times, (n, m); nan of less than 16 of them."""
+    if len(logs) < _BLOCKS:
+        nan = np.full(logs.shape[1], math.nan)
+        return nan, nan, np.zeros(logs.shape[1], bool)
+    exponents = np.sum(logs, axis=0) / (len(logs) * interval)
+    blocks = np.array_split(logs, _BLOCKS)
+    history = np.array([np.mean(block, axis=0) / interval for block in blocks])
+    with np.errstate(invalid="ignore"):  # of -inf
+        first_half, second_half = np.split(history, 2)
+        drift = np.abs(np.mean(first_half, axis=0) - np.mean(second_half, axis=0))
+        scatter = np.std(history, axis=0, ddof=1) / math.sqrt(_BLOCKS)
+        errors = np.maximum(scatter, drift)
+    share, least = CONVERGED
+    converged = np.isfinite(exponents) & (drift <= np.maximum(share * np.abs(exponents), least))
+    return exponents, errors, converged
 
 
 class _Frame:
@@ -254,49 +265,3 @@ class _Frame:
             first = dependent[0]
             self.columns[:, self.remaining[first]] = 0.0
             self.remaining = np.delete(self.remaining, first)
-
-
-def _averaged(
-    status: Status,
-    logs: Array,
-    interval: float,
-    count: int,
-    log: Array,
-    end: State,
-    leave_out_trivial: bool,
-) -> Lyapunov:
-    """The `count` largest exponents from logarithms of growth over equal times, shape (n, count or
-    one more)."""
-    covered = len(logs) * interval
-    if len(logs) < _BLOCKS:  # too little time was covered
-        nan = np.full(count, math.nan)
-        return Lyapunov(status, nan, nan, covered, 0, np.zeros(count, bool), end)
-    blocks = np.array_split(logs, _BLOCKS)
-    history = np.array([np.mean(block, axis=0) / interval for block in blocks])
-    exponents = np.sum(logs, axis=0) / covered
-    with np.errstate(invalid="ignore"):  # of -inf
-        first_half, second_half = np.split(history, 2)
-        drift = np.abs(np.mean(first_half, axis=0) - np.mean(second_half, axis=0))
-        scatter = np.std(history, axis=0, ddof=1) / math.sqrt(_BLOCKS)
-        errors = np.maximum(scatter, drift)
-    share, least = CONVERGED
-    converged = np.isfinite(exponents) & (drift <= np.maximum(share * np.abs(exponents), least))
-
-    order = np.argsort(-exponents, kind="stable")
-    trivial = math.nan
-    # a motion at rest or in steady sliding has no trivial exponent
-    events = log[columns.RELEASES] + log[columns.STICKS] + log[columns.SEPARATIONS]
-    if leave_out_trivial and events > 0:
-        trivial = float(np.sum(logs[:, 0]) / covered)
-        order = order[order != 0]
-    order = order[:count]
-    return Lyapunov(
-        status=status,
-        exponents=exponents[order],
-        errors=errors[order],
-        duration=covered,
-        separations=int(log[columns.SEPARATIONS]),
-        converged=converged[order],
-        final_state=end,
-        trivial_exponent=trivial,
-    )

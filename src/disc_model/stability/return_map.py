@@ -154,29 +154,6 @@ def parameter_change(p: Parameters, model: Model, name: str) -> Array:
     return columns.input_column(model, scalars, stiffness, damping)
 
 
-def compression_coordinates(model: Model, rows: Array) -> Array:
-    """The matrix, (n, n), from coordinates, which are some rows of a column times their
-    `energy_scale`, to others in which the compression of a compliant contact stands for the
-    slider's height.
-
-    The force of a stiff contact changes by hundreds of newtons if the disc alone is displaced by a
-    micrometre: a single coordinate then has all of that effect. With rigid contact it is one.
-    """
-    matrix = np.eye(len(rows))
-    if not model.has_compliance:
-        return matrix
-    state = build_state(model)
-    motion.clear(state)
-    state.z[:] = -model.mode_amplitude
-    state.y[:] = -model.mode_amplitude0
-    gap = columns.column_of(state, model)
-    height = columns.coordinate_rows(model, ("u",))[-1]
-    gap[height] = 1.0
-    scale = columns.energy_scale(model)
-    matrix[rows == height] = gap[rows] * scale[height] / scale[rows]
-    return matrix
-
-
 class Counts(NamedTuple):
     """Number of events of each kind in an orbit, or in a period of a cycle."""
 
@@ -291,11 +268,6 @@ class ReturnMap:
         column = columns.column_of(self._state, self.model)
         return np.asarray(column[self._rows] * self.scale, dtype=float)
 
-    @cached_property
-    def compression(self) -> Array:
-        """From these coordinates to some on which the map depends less steeply, (n, n)."""
-        return compression_coordinates(self.model, self._rows)
-
     @property
     def longest(self) -> float:
         """Time allowed for a return, s: several times that of the rigid disc, whatever the
@@ -400,6 +372,10 @@ class ReturnMap:
         time = scalars["time"] + scalars["time_low"]
         return Passage(code, time, self._coordinates())
 
+    def apart(self, x: Array, y: Array) -> float:
+        """Distance of two points of the section, over the static deflection."""
+        return float(np.linalg.norm(x - y)) / self.deflection
+
     def point(self, state: State) -> Array:
         """The point of the section of a state that lies on it."""
         write_state(self._case, state, self._state)
@@ -442,43 +418,29 @@ def newton(
     follow = partial(map_.evaluate, releases=releases, may_separate=may_separate)
     goal = map_.tol * map_.deflection
     orbit = follow(x, coarse=True)
-    if not orbit.returned:
-        return None
+    for computed in range(1, MOST_JACOBIANS + 1):
+        better = None
+        if orbit.returned and orbit.residual > goal:
+            better = _search_along_step(follow, orbit, orbit.jacobian, MOST_HALVINGS)
+        if better is None:
+            break
 
-    jacobian = orbit.jacobian
-    computed = 1  # Jacobians so far
-    fresh = True  # whether the Jacobian is that at the present point
-    while not orbit.residual <= goal:
-        if not math.isfinite(orbit.residual):
-            return None
-
-        # one step, which a Jacobian from elsewhere must not shorten
-        halvings = MOST_HALVINGS if fresh else 1
-        better = _search_along_step(follow, orbit, jacobian, halvings)
-        if better is None and fresh:
-            if orbit.residual <= rounding(map_.tol, 1e3) * map_.deflection:
-                break
-            return None
-        remaining = 1.0  # share of the residual
-        if better is not None:
-            remaining = better.residual / orbit.residual
+        # a good step is followed by another with its Jacobian, which must not shorten that
+        jacobian = orbit.jacobian
+        remaining = better.residual / orbit.residual
+        while remaining <= SLOW and better.residual > goal:
             orbit = better
-            fresh = False
-
-        # a good step is followed by another with its Jacobian
-        if remaining <= SLOW or orbit.residual <= goal:
-            continue
-        if computed >= MOST_JACOBIANS:
-            return None
-        again = follow(orbit.start, coarse=computed < COARSE_JACOBIANS)
-        if not again.returned:
-            return None
-        jacobian = again.jacobian
-        computed += 1
-        fresh = True
+            better = _search_along_step(follow, orbit, jacobian, 1) or orbit
+            remaining = better.residual / orbit.residual
+        orbit = better
+        if orbit.residual <= goal:
+            break
+        orbit = follow(orbit.start, coarse=computed < COARSE_JACOBIANS)
 
     solution = follow(orbit.start)
-    return solution if _is_fixed_point(map_, solution) else None
+    largest = rounding(map_.tol, 1e4) * map_.deflection
+    close = solution.returned and solution.residual <= largest
+    return solution if close and bool(np.all(np.isfinite(solution.jacobian))) else None
 
 
 def _search_along_step(
@@ -486,21 +448,13 @@ def _search_along_step(
 ) -> Orbit | None:
     """The orbit from the first point along a step of Newton's method that decreases the residual
     in proportion; the whole step is tried first, then its half, `halvings` times in all."""
-    identity = np.eye(len(jacobian))
-    step = newton_step(jacobian - identity, orbit.end - orbit.start)
+    step = newton_step(jacobian - np.eye(len(jacobian)), orbit.end - orbit.start)
     for shrink in range(halvings):
         share = 0.5**shrink
         trial = follow(orbit.start - step * share, tangent=False)
         if trial.returned and trial.residual < orbit.residual * (1 - LEAST_DECREASE * share):
             return trial
     return None
-
-
-def _is_fixed_point(map_: ReturnMap, orbit: Orbit) -> bool:
-    """Whether an orbit returns to its start, but for what rounding may leave, with derivatives."""
-    largest = rounding(map_.tol, 1e4) * map_.deflection
-    close = orbit.returned and orbit.residual <= largest
-    return close and bool(np.all(np.isfinite(orbit.jacobian)))
 
 
 def newton_step(matrix: Array, right: Array) -> Array:

@@ -70,47 +70,29 @@ def segment_of(result: Result) -> Segment:
     """The segment of a result: ranges over its window "late", and shares of its whole time."""
     P = result.samples["late"]["P"]
     u = result.samples["late"]["u"] - result.u_0
-    stick, slip, separation, rate = shares(result)
+    statistics = result.statistics
+    total = duration_of(result)
     return Segment(
         P_min=float(P.min()),
         P_max=float(P.max()),
         u_min=float(u.min()),
         u_max=float(u.max()),
-        stick_fraction=stick,
-        slip_fraction=slip,
-        separation_fraction=separation,
-        separation_rate=rate,
-        surface_speed=result.statistics.get("surface_speed", 0.0),
+        stick_fraction=statistics["time_stick"] / total,
+        slip_fraction=statistics["time_slip"] / total,
+        separation_fraction=statistics["time_separation"] / total,
+        separation_rate=statistics["n_separations"] / total,
+        surface_speed=statistics.get("surface_speed", 0.0),
     )
 
 
-class Shares(NamedTuple):
-    """Shares of a motion's time in stick, slip and separation, and separations per second."""
-
-    stick: float
-    slip: float
-    separation: float
-    separation_rate: float
+def duration_of(result: Result) -> float:
+    """The simulated time of a result, s."""
+    return sum(result.statistics[name] for name in ("time_stick", "time_slip", "time_separation"))
 
 
-def shares(result: Result) -> Shares:
-    """Shares of a result's time."""
-    names = ("time_stick", "time_slip", "time_separation", "n_separations")
-    total = _duration(result)
-    return Shares(*(result.statistics[name] / total for name in names))
-
-
-def _duration(result: Result) -> float:
-    """The whole time of a result, s."""
-    statistics = result.statistics
-    return statistics["time_stick"] + statistics["time_slip"] + statistics["time_separation"]
-
-
-def slips_on(leg: Result) -> bool:
-    """Whether a leg has only slip in its later half. Slip between two sticks, where a motion is
-    linear as well, is shorter than any leg."""
-    later = leg.final_state.time - _duration(leg) / 2
-    return leg.final_state.phase == "slip" and not np.any(leg.event_rows[:, TIME] > later)
+def stick_share(result: Result) -> float:
+    """The share of stick in a result's time."""
+    return result.statistics["time_stick"] / duration_of(result)
 
 
 def event_times(leg: Result, kind: int) -> Array:

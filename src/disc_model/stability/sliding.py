@@ -17,7 +17,7 @@ membrane; its equilibrium is followed from that of no load.
 """
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from types import FunctionType, ModuleType, SimpleNamespace
@@ -42,7 +42,7 @@ RATES = np.arange(1, 101) / 50  # at which the rate g is sought, over Omega
 BESIDE = np.concatenate([-np.geomspace(1, 1e-9, 28), np.geomspace(1e-9, 1, 28)])
 LOADS = 24  # shares of the load by which the equilibrium of a plate that stretches is followed
 MOST_ITERATIONS = 30  # of Newton's method: a few suffice, where there is an equilibrium
-SETTLED = 1e-13  # relative change at which it ends
+SETTLED = 1e-10  # relative change at which it ends: what remains is its square
 
 
 def _in_python(module: ModuleType) -> Any:
@@ -243,48 +243,31 @@ def _equilibrium(case: Parameters) -> SteadySliding:
     raise_faults(foreign_case(case))
     if case.Omega == 0:
         return _absent(case, SlidingStatus.AT_REST)
-    modes = mode_arrays(case)
-    model = engine_case(case).model
-    compliance = contact_compliance(case)
-    states = equilibria(case)
-    carried = [each for each in states if each.V > 0 or case.contact == "bilateral"]
+    disc = _Response(case)
+    linear = disc.equilibria()
+    every = [_slip_at(case, disc.rows_of(each)) for each in linear]
+    if disc.model.has_stretching:
+        every = [slip for each in every if (slip := _stretched(case, each)) is not None]
+    carried = [each for each in every if each.force > 0 or case.contact == "bilateral"]
     if not carried:
         if not case.N > 0:
             return _absent(case, SlidingStatus.NO_LOAD)
-        return _absent(case, SlidingStatus.NO_CONTACT if states else SlidingStatus.NOT_FOUND)
-    rate, a, b, V = min(carried, key=lambda each: abs(each.rate - case.Omega))
-    alpha = -modes.diameters * rate * b
-    beta = modes.diameters * rate * a
-    height: tuple[float, ...] = ()
-    if compliance:
-        height = (float(modes.psi @ a) - compliance * V, 0.0)
-
-    def rows_at(psi: float) -> Array:
-        rows = join_rows(modes, (a, alpha, b, beta), (psi, case.Omega), height)
-        return np.asarray(rows, dtype=float)
-
-    i, _ = _slip(case, rows_at(0.0)[:, None])
-    friction = float(LAWS.friction_coefficient(model, 1.0, rate))
-    if LAWS.slip_denominator(model, case.m, friction, i.dw_dtheta[0]) <= 1e-6:
+        return _absent(case, SlidingStatus.NO_CONTACT if every else SlidingStatus.NOT_FOUND)
+    found = min(carried, key=lambda each: abs(each.rate - case.Omega))
+    if found.denominator <= 1e-6:
         return _absent(case, SlidingStatus.PARADOX)
-    # V and H of a unit force
-    share, braking, _ = (float(part[0]) for part in LAWS.slip_rates(model, i, friction, np.ones(1)))
-    force = V / share
-    psi = math.nan  # no friction at this speed, and no slope: both are exactly zero then
-    if case.k_p > 0:
-        psi = braking * force / (case.r_0 * case.k_p)
-    elif braking != 0:
-        return _absent(case, SlidingStatus.NO_SPRING)
-    rows = rows_at(psi if case.k_p > 0 else 0.0)
-    _, rates = _slip(case, rows[:, None] + 1j * LAWS.TINY * np.eye(len(rows)))
-    status = SlidingStatus.FURTHER if model.has_stretching else SlidingStatus.OK
+    (a, alpha, b, beta), (psi, _), _ = split_rows(mode_arrays(case), found.rows)
+    if case.k_p == 0:  # no friction at this speed, and no slope: both are exactly zero then
+        if any(each.H != 0 for each in linear):
+            return _absent(case, SlidingStatus.NO_SPRING)
+        psi = math.nan
+    status = SlidingStatus.FURTHER if disc.model.has_stretching else SlidingStatus.OK
     if len(carried) > 1:
         status = SlidingStatus.SEVERAL
-    found = np.sort([each.rate for each in carried])
-    jacobian = rates.imag / LAWS.TINY
+    rates = np.sort([each.rate for each in carried])
     return SteadySliding(
-        status, "", force, psi, a, b, alpha, beta, jacobian=jacobian, parameters=case,
-        rates=found, rate=rate,
+        status, "", found.force, float(psi), a, b, alpha, beta, jacobian=found.jacobian,
+        parameters=case, rates=rates, rate=found.rate,
     )  # fmt: skip
 
 
@@ -315,83 +298,13 @@ def _absent(p: Parameters, status: SlidingStatus) -> SteadySliding:
 
 class Balanced(NamedTuple):
     """The disc in equilibrium under a contact that travels over it: rate g (rad/s), modal coordinates
-    a, b (n_modes,), vertical force (N)."""
+    a, b (n_modes,), vertical and horizontal force (N)."""
 
     rate: float
     a: Array
     b: Array
     V: float
-
-
-Solve = Callable[[float, Balanced | None], Balanced]
-"""The equilibrium at a rate, near another one; its numbers are nan if there is none."""
-
-
-def equilibria(p: Parameters) -> list[Balanced]:
-    """All equilibria that are found, up to twice the drive's rate."""
-    response = _Response(p)
-    plate = _StretchedPlate(response) if response.model.has_stretching else None
-    solve: Solve = plate.solve if plate else response.solve
-    start = plate.loaded() if plate else response.solve(p.Omega)
-    if not response.t.any():
-        return [start] if math.isfinite(start.V) else []
-
-    # both ways from the drive's rate, as a plate that stretches is followed
-    grid = RATES * p.Omega if plate else _grid_of(response)
-    up = [start, *_along(solve, start, grid[grid > p.Omega])]
-    down = [start, *_along(solve, start, grid[grid < p.Omega][::-1])]
-    found = [*_zeros(solve, response, down), *_zeros(solve, response, up)]
-    if response.excess(start) == 0:
-        found.append(start)
-    return found
-
-
-def _along(solve: Solve, start: Balanced, rates: Array) -> Iterator[Balanced]:
-    """Equilibria at successive rates, each near the one before."""
-    near = start
-    for rate in rates.tolist():
-        now = solve(rate, near)
-        near = now if math.isfinite(now.V) else near
-        yield now
-
-
-def _zeros(solve: Solve, response: "_Response", along: Sequence[Balanced]) -> Iterator[Balanced]:
-    """Equilibria, between two of some others, at which the slider is as fast as the drive."""
-    for before, after in pairwise(along):
-        ends = (response.excess(before), response.excess(after))
-        if not ends[0] * ends[1] < 0:
-            continue
-
-        def excess(rate: float, near: Balanced = before) -> float:
-            return response.excess(solve(rate, near))
-
-        root = brentq(excess, before.rate, after.rate, xtol=1e-300, rtol=1e-15)
-        state = solve(root, before)
-        # at a pole it jumps from one sign to the other
-        if abs(response.excess(state)) < min(map(abs, ends)):
-            yield state
-
-
-def _grid_of(response: "_Response") -> Array:
-    """Rates at which equilibria are sought, closer beside resonances of the disc and where the
-    contact force has a pole."""
-    Omega = response.p.Omega
-    pairs = response.l > 0
-    grid = _with_beside(RATES * Omega, np.sqrt(response.w2[pairs]) / response.l[pairs])
-    force = np.array([response.solve(rate).V for rate in grid])
-    jumps = np.flatnonzero(force[1:] * force[:-1] < 0)
-
-    def softness(rate: float) -> float:
-        return 1 / response.solve(rate).V
-
-    poles = [brentq(softness, grid[i], grid[i + 1], rtol=1e-15) for i in jumps]
-    return _with_beside(grid, np.array(poles))
-
-
-def _with_beside(grid: Array, places: Array) -> Array:
-    """Rates of a grid, and others on both sides of some places within it."""
-    beside = (places[:, None] * (1 + BESIDE)).ravel()
-    return np.unique(np.append(grid, beside[(beside > grid[0]) & (beside < grid[-1])]))
+    H: float
 
 
 class _Response:
@@ -400,123 +313,145 @@ class _Response:
     def __init__(self, p: Parameters) -> None:
         modes = mode_arrays(p)
         self.p = p
+        self.modes = modes
         self.model = engine_case(p).model
-        self.l = modes.diameters
-        self.psi = modes.psi
         self.w2 = modes.omega**2
         self.d = modal_damping(p)
         self.t = tangential_amplitudes(p)
         self.compliance = contact_compliance(p)
-        self.load = p.N * (1 + p.k * (float(np.sum(self.psi**2 / self.w2)) + self.compliance))
-        self.leans = self.l * self.psi / p.r_0
+        self.load = p.N - p.k * self.model.u_0
+        self.leans = modes.diameters * modes.psi / p.r_0
         if p.contact_force != "normal":
-            self.leans = np.zeros_like(self.psi)
+            self.leans = np.zeros_like(modes.psi)
 
-    def excess(self, state: Balanced) -> float:
-        """The slider's rate over that of the drive, rad/s."""
-        surface = state.rate * float((self.l * self.t) @ state.a)
-        return state.rate + surface / self.p.r_0 - self.p.Omega
+    def equilibria(self) -> list[Balanced]:
+        """All equilibria that are found, up to twice the drive's rate."""
+        if not self.t.any():
+            start = self.solve(self.p.Omega)
+            return [start] if math.isfinite(start.V) else []
+        found = list[Balanced]()
+        for low, high in pairwise(self._grid()):
+            before = self.excess(low)
+            after = self.excess(high)
+            if before == 0:
+                found.append(self.solve(low))
+            if before * after < 0:
+                rate = float(brentq(self.excess, low, high, xtol=1e-300, rtol=1e-15))
+                # at a pole it jumps from one sign to the other
+                if abs(self.excess(rate)) < min(abs(before), abs(after)):
+                    found.append(self.solve(rate))
+        return found
+
+    def excess(self, rate: float) -> float:
+        """The slider's rate over that of the drive at a rate g, rad/s."""
+        state = self.solve(rate)
+        surface = rate * float((self.modes.diameters * self.t) @ state.a)
+        return rate + surface / self.p.r_0 - self.p.Omega
+
+    def _grid(self) -> list[float]:
+        """Rates at which equilibria are sought, closer beside resonances of the disc and where the
+        contact force has a pole."""
+        pairs = self.modes.diameters > 0
+        grid = RATES * self.p.Omega
+        grid = _with_beside(grid, self.modes.omega[pairs] / self.modes.diameters[pairs])
+
+        def softness(rate: float) -> float:
+            return 1 / self.solve(rate).V
+
+        signs = np.sign([softness(rate) for rate in grid])
+        jumps = np.flatnonzero(signs[1:] * signs[:-1] < 0)
+        poles = [brentq(softness, grid[i], grid[i + 1], rtol=1e-15) for i in jumps]
+        return [*_with_beside(grid, np.array(poles)).tolist()]
 
     @np.errstate(divide="ignore", invalid="ignore")
-    def solve(self, rate: float, near: Balanced | None = None) -> Balanced:
+    def solve(self, rate: float) -> Balanced:
         """The equilibrium at a rate, of which there is one."""
-        turned = self.l * rate
-        gap = turned**2 - self.w2
-        lag = self.d * turned
-        size = gap**2 + lag**2
-        a_V, a_H = self.psi * gap / size, self.t * lag / size
-        b_V, b_H = self.psi * lag / size, -self.t * gap / size
+        turned = self.modes.diameters * rate
+        receptance = 1 / (turned**2 - self.w2 - 1j * self.d * turned)
+        by_V = self.modes.psi * receptance  # a + i b of a unit of V, and of H
+        by_H = -1j * self.t * receptance
         k = self.p.k
-        by_V = 1 - k * (float(self.psi @ a_V) - self.compliance)
-        by_H = -k * float(self.psi @ a_H)
-        share = float(LAWS.friction_coefficient(self.model, 1.0, rate))  # H over V
+        from_V = 1 - k * (float(self.modes.psi @ by_V.real) - self.compliance)
+        from_H = -k * float(self.modes.psi @ by_H.real)
+        mu = float(LAWS.friction_coefficient(self.model, 1.0, rate))
+        share = mu  # H over V
         if self.leans.any():
-            share = self._share_on_slope(share, by_V, by_H, b_V, b_H)
-        V = self.load / (by_V + share * by_H)
-        H = share * V
-        return Balanced(rate, a_V * V + a_H * H, b_V * V + b_H * H, V)
+            # with h for this share, beta = (leans b) solves the quadratic equation
+            #   h - mu = beta (1 + mu h), beta = (leans b_V + h leans b_H) load / (from_V + h from_H),
+            # whose root near mu is that of a small slope
+            slope_V = self.load * float(self.leans @ by_V.imag)
+            slope_H = self.load * float(self.leans @ by_H.imag)
+            square = from_H - mu * slope_H
+            linear = from_V - mu * from_H - slope_H - mu * slope_V
+            constant = -mu * from_V - slope_V
+            root = math.copysign(np.sqrt(linear**2 - 4 * square * constant), linear)
+            share = float(-2 * constant / (linear + root))
+        V = self.load / (from_V + share * from_H)
+        motion = (by_V + share * by_H) * V
+        return Balanced(rate, motion.real, motion.imag, V, share * V)
 
-    def _share_on_slope(self, mu: float, by_V: float, by_H: float, b_V: Array, b_H: Array) -> float:
-        """H over V under the normal force: with h for this share, beta = (leans b) solves
-
-        h - mu = beta (1 + mu h),  beta = (leans b_V + h leans b_H) load / (by_V + h by_H),
-
-        a quadratic equation in h, whose root near mu is that of a small slope."""
-        slope_V = self.load * float(self.leans @ b_V)
-        slope_H = self.load * float(self.leans @ b_H)
-        square = by_H - mu * slope_H
-        linear = by_V - mu * by_H - slope_H - mu * slope_V
-        constant = -mu * by_V - slope_V
-        root = math.copysign(np.sqrt(linear**2 - 4 * square * constant), linear)
-        return float(-2 * constant / (linear + root))
+    def rows_of(self, state: Balanced) -> Array:
+        """An equilibrium in the rows of `SteadySliding.jacobian`."""
+        p = self.p
+        turned = self.modes.diameters * state.rate
+        psi = state.H / (p.r_0 * p.k_p) if p.k_p else 0.0
+        height: tuple[float, ...] = ()
+        if self.compliance:
+            height = (float(self.modes.psi @ state.a) - self.compliance * state.V, 0.0)
+        disc = (state.a, -turned * state.b, state.b, turned * state.a)
+        return np.asarray(join_rows(self.modes, disc, (psi, p.Omega), height), dtype=float)
 
 
-class _StretchedPlate:
-    """The equilibrium of a plate that stretches, in x = a of all modes, b of the pairs:
+def _with_beside(grid: Array, places: Array) -> Array:
+    """Rates of a grid, and others on both sides of some places within it."""
+    beside = (places[:, None] * (1 + BESIDE)).ravel()
+    return np.unique(np.append(grid, beside[(beside > grid[0]) & (beside < grid[-1])]))
 
-    (l^2 g^2 - omega^2) a + d l g b - F^a - psi V = 0
-    (l^2 g^2 - omega^2) b - d l g a - F^b + t H   = 0
-    """
 
-    def __init__(self, response: _Response) -> None:
-        self.linear = response
-        self.load = response.p.N - response.p.k * response.model.u_0
-        self.pairs = response.l > 0
-
-    def loaded(self) -> Balanced:
-        """The equilibrium at the drive's rate, followed from that of no load."""
-        nothing = np.zeros(len(self.pairs))
-        rate = self.linear.p.Omega
-        state = Balanced(rate, nothing, nothing, 0.0)
-        for share in np.arange(1, LOADS + 1) / LOADS:
-            state = self.solve(rate, state, float(share))
-        return state
-
-    def solve(self, rate: float, near: Balanced | None, share: float = 1.0) -> Balanced:
-        """The equilibrium near another one under a share of the load, by Newton's method with
-        complex steps."""
-        assert near is not None
-        x = np.append(near.a, near.b[self.pairs])
-        steps = 1j * LAWS.TINY * np.eye(len(x))
+def _stretched(p: Parameters, slip: "_Slip") -> "_Slip | None":
+    """The equilibrium of a plate that stretches, followed from that of one that does not: stretching
+    that grows with the square of a share has the effect of a load that grows with it."""
+    scale = np.sqrt(energy_weights(p))
+    rows = slip.rows
+    for share in np.arange(1, LOADS + 1) / LOADS:
         for _ in range(MOST_ITERATIONS):
-            left, (a, b, V) = self._left(x[:, None] + steps, rate, share)
-            if not np.isfinite(left).all():
+            slip = _slip_at(p, rows, float(share**2))
+            if not np.isfinite(slip.jacobian).all():
+                return None
+            change = np.linalg.lstsq(slip.jacobian, slip.rates, rcond=None)[0]
+            rows = rows - change
+            if np.linalg.norm(scale * change) <= SETTLED * np.linalg.norm(scale * rows):
                 break
-            change = np.linalg.solve(left.imag / LAWS.TINY, left.real[:, 0])
-            x = x - change
-            if np.abs(change).max() <= SETTLED * np.abs(x).max():
-                _, (a, b, V) = self._left(x[:, None] + 0j, rate, share)
-                return Balanced(rate, a.real[:, 0], b.real[:, 0], float(V.real[0]))
-        nan = np.full(len(self.pairs), np.nan)
-        return Balanced(rate, nan, nan, math.nan)
-
-    def _left(self, x: Any, rate: float, share: float) -> tuple[Any, tuple[Any, Any, Any]]:
-        """What the equations leave over, for x in columns; and a, b, V."""
-        disc = self.linear
-        n = len(self.pairs)
-        a = x[:n]
-        b = np.zeros_like(a)
-        b[self.pairs] = x[n:]
-        w = disc.psi @ a
-        V = (share * self.load + disc.p.k * w) / (1 + disc.p.k * disc.compliance)
-        mu = LAWS.friction_coefficient(disc.model, 1.0, rate)
-        beta = disc.leans @ b
-        H = (mu + beta) / (1 - mu * beta) * V
-        turned = (disc.l * rate)[:, None]
-        gap = turned**2 - disc.w2[:, None]
-        lag = disc.d[:, None] * turned
-        along, across = membrane_forces(disc.p, a, b)
-        by_a = gap * a + lag * b - along - disc.psi[:, None] * V
-        by_b = gap * b - lag * a - across + disc.t[:, None] * H
-        return np.vstack([by_a, by_b[self.pairs]]), (a, b, V)
+        else:
+            return None
+    return _slip_at(p, rows)
 
 
 # ---- The equations of slip
 
 
-def _slip(p: Parameters, rows: Any) -> tuple[Any, Any]:
-    """Arguments of the laws of contact, and rates of slip, at states in the rows of
-    `SteadySliding.jacobian`."""
+class _Slip(NamedTuple):
+    """Slip at a state in the rows of `SteadySliding.jacobian`: its rates in these, and their Jacobian;
+    the rate g over the material (rad/s), contact force (N), and that force's denominator."""
+
+    rows: Array
+    rates: Array
+    jacobian: Array
+    rate: float
+    force: float
+    denominator: float
+
+
+def _slip_at(p: Parameters, rows: Array, stretching: float = 1.0) -> _Slip:
+    """Slip at a state, on a plate that stretches by a share of what it does."""
+    moved = rows[:, None] + 1j * LAWS.TINY * np.eye(len(rows))
+    rates, *numbers = _slip(p, moved, stretching)
+    first = [float(np.ravel(number)[0].real) for number in numbers]
+    return _Slip(rows, rates.real[:, 0], rates.imag / LAWS.TINY, *first)
+
+
+def _slip(p: Parameters, rows: Any, stretching: float) -> tuple[Any, Any, Any, Any]:
+    """Rates, the rate g, contact force and its denominator, as `_Slip`, at states in columns."""
     modes = mode_arrays(p)
     model = engine_case(p).model
     (a, alpha, b, beta), (psi, f), height = split_rows(modes, rows)
@@ -533,8 +468,8 @@ def _slip(p: Parameters, rows: Any) -> tuple[Any, Any]:
     free_across = -l * g * alpha - d * beta - w2 * b
     if model.has_stretching:
         along, across = membrane_forces(p, a, b)
-        free_along = free_along - along
-        free_across = free_across - across
+        free_along = free_along - stretching * along
+        free_across = free_across - stretching * across
     w = np.sum(weight * a, axis=0)
     velocity = np.sum(weight * rate_a, axis=0)
     u = w
@@ -563,13 +498,15 @@ def _slip(p: Parameters, rows: Any) -> tuple[Any, Any]:
     )
     friction = LAWS.friction_coefficient(model, 1.0, g)
     denominator = LAWS.slip_denominator(model, p.m, friction, i.dw_dtheta)
-    V, H, rate_g = LAWS.slip_rates(model, i, friction, LAWS.slip_numerator(model, i) / denominator)
+    force = LAWS.slip_numerator(model, i) / denominator
+    V, H, rate_g = LAWS.slip_rates(model, i, friction, force)
     free_across = free_across + tangential * H
     rate_f = rate_g + np.sum(tangential * free_across, axis=0) / p.r_0
     disc = (rate_a, free_along - weight * V, rate_b, free_across)
     acceleration = (V - p.N - p.k * (u - model.u_0) - p.c * v) / p.m
     lift = (v, acceleration)[: len(height)]
-    return i, join_rows(modes, disc, (p.Omega - f, rate_f), lift)
+    rates = join_rows(modes, disc, (p.Omega - f, rate_f), lift)
+    return rates, g, force, denominator
 
 
 def split_rows(modes: Modes, rows: Any) -> tuple[Any, Any, Any]:

@@ -10,7 +10,6 @@ stick-slip from those that come to steady sliding.
 """
 
 import math
-from collections.abc import Callable
 
 import numpy as np
 from scipy.optimize import brentq
@@ -44,13 +43,10 @@ LONGEST = 20.0  # periods of the slider on its spring up to a return
 # amplitude of the drive point's rate psi', over Omega, below which a cycle is steady sliding: the
 # parameter of a Hopf point, which depends on its square, is known to 1e-8
 SMALLEST_CYCLE = 1e-4
-MOST_CORRECTIONS = 12  # of the time of a passage
-SAME_TIME = 1e-9  # last correction over a piece: what remains is its square
+SAME_TIME = 1e-9  # error of a passage over a piece: what remains is its square
 NO_EVENTS = Counts(0, 0, 0, 0, 0)
 SMALLEST = 1e-3  # distance from steady sliding at which the search begins, over the deflection
 FACTOR = 1.25  # of one distance over that before
-MOST_DISTANCES = 60  # up to 500 times the deflection, beyond which the slider has long stopped
-HALVINGS = 12  # of the distances up to which the slider does not stop
 NEUTRAL = 1e-9  # growth in a return that may be rounding: without damping all motions return
 PRECISION = 1e-6  # of the distance from which Newton's method begins, relative to it
 
@@ -69,7 +65,7 @@ class SlippingMap(ReturnMap):
         *,
         patient: bool = False,
     ) -> None:
-        # no motion that separates is followed, as its map is not smooth
+        # none that separates is followed, as its map is not smooth
         super().__init__(p, tol, parameters, patient=patient)
         self._before = build_state(self.model)
         of_slider = columns.coordinate_rows(self.model, ("psi", "f"))[-2:]
@@ -102,32 +98,33 @@ class SlippingMap(ReturnMap):
         speak of releases and separations have no meaning here."""
         start = np.array(x, dtype=float)
         self._put(start)
-        passage = Passage(VANISHED, 0.0, start)
-        acceleration = self._acceleration()
+        acceleration = -float(self._gradient @ self._rates())
+        outcome, period, end = Passage(VANISHED, 0.0, start)
         if acceleration > 0:
-            passage = self._follow_to_passage()
-        outcome, period, end = passage
-        amplitude = acceleration * period / math.tau  # of an oscillation about steady sliding
-        if outcome == RETURNED and amplitude < SMALLEST_CYCLE * self.model.Omega:
+            outcome, period, end = self._follow_to_passage()
+        # the amplitude of an oscillation about steady sliding
+        if (
+            outcome == RETURNED
+            and acceleration * period < math.tau * SMALLEST_CYCLE * self.model.Omega
+        ):
             outcome = VANISHED
         count = self._first + len(self._names)
         jacobian = np.zeros((self.size, count))
         if outcome == RETURNED and tangent:
             self._put(start)
             self._put_columns(count)
-            code = self._advance(period, tangent=True)
-            outcome = RETURNED if code == transitions.TIME_OVER else code
+            outcome = self._advance(period, tangent=True)
         if outcome == RETURNED:
             # to the section along the motion: by rounding, and by the change of the time of passage
             rates = self._rates()
-            by_turn = rates[self._rows] * self.scale / float(self._gradient @ rates)
-            turn = float(rates[self._psi_row])
-            end = self._coordinates() - by_turn * turn
-            period -= turn / float(self._gradient @ rates)
+            delay = rates[self._psi_row] / float(self._gradient @ rates)
+            end = self._coordinates() - delay * rates[self._rows] * self.scale
+            period -= delay
             if tangent:
                 changes = np.hstack(self._blocks())[:, :count]
-                turns = self._gradient @ changes + self._changes_of_drive(count)
-                jacobian = changes[self._rows] * self.scale[:, None] - np.outer(by_turn, turns)
+                delays = self._turns(changes) / float(self._gradient @ rates)
+                along = changes[self._rows] - np.outer(rates[self._rows], delays)
+                jacobian = along * self.scale[:, None]
         by_start, by = jacobian[:, : self.size].copy(), jacobian[:, self._first :].copy()
         return Orbit(outcome, period, 0.0, NO_EVENTS, start, end, by_start, by)
 
@@ -179,9 +176,9 @@ class SlippingMap(ReturnMap):
         saltation.rates(self.model, self._state, before)
         return before.reshape(self._tangent.rows, -1)[:, 0].copy()
 
-    def _acceleration(self) -> float:
-        """Rate of -psi', rad/s^2."""
-        return -float(self._gradient @ self._rates())
+    def _excess(self) -> float:
+        """The slider's rate over the drive's, rad/s."""
+        return -float(self._rates()[self._psi_row])
 
     def _blocks(self) -> list[Array]:
         """The columns, in views of the engine's."""
@@ -194,24 +191,24 @@ class SlippingMap(ReturnMap):
         changes = np.zeros((self._tangent.rows, self._tangent.columns))
         changes[self._rows, np.arange(self.size)] = 1 / self.scale
         # on the section psi' stays 0, and falls by the rate of slip
-        turns = self._gradient @ changes[:, :count] + self._changes_of_drive(count)
-        changes[self._rate_row, :count] = turns
+        changes[self._rate_row, :count] = self._turns(changes[:, :count])
         for i, view in enumerate(self._blocks()):
             view[:] = changes[:, i * columns.COLUMNS_AT_ONCE :][:, : columns.COLUMNS_AT_ONCE]
         saltation.slider_rows(self.model, self._state, self._tangent)
 
-    def _changes_of_drive(self, count: int) -> Array:
-        """Changes of Omega with each column."""
-        changes = np.zeros(count)
+    def _turns(self, changes: Array) -> Array:
+        """Changes of psi' with each column."""
+        turns = self._gradient @ changes
         if "Omega" in self._names:
-            changes[self._first + self._names.index("Omega")] = 1.0
-        return changes
+            turns[self._first + self._names.index("Omega")] += 1.0
+        return np.asarray(turns)
 
     # ---- The motion
 
     def _advance(self, duration: float, *, tangent: bool = False) -> int:
-        """Follow the motion for a duration (s); exit code."""
-        self._tangent.log[:] = 0.0
+        """Follow the motion for a duration (s); `RETURNED`, or why it does not slip on until then."""
+        log = self._tangent.log
+        log[:] = 0.0
         longest = math.inf
         if tangent:
             longest = longest_step(self.model, self.order, 10 * self.tolerance)
@@ -225,63 +222,55 @@ class SlippingMap(ReturnMap):
             tangent=tangent,
         )
         code = integrate_in_pieces(self.model, self._series, self._state, self._tangent, limits)
-        stops = self._tangent.log[columns.STICKS] + self._tangent.log[columns.REVERSALS] > 0
-        return STOPS if code == transitions.TIME_OVER and stops else code
+        if code != transitions.TIME_OVER:
+            return code
+        return STOPS if log[columns.STICKS] + log[columns.REVERSALS] > 0 else RETURNED
 
     def _follow_to_passage(self) -> Passage:
         """Follow the motion from the present state to the next passage through the section, where
         the slider's excess over the drive, -psi', rises through zero."""
         p = self.parameters
-        last = math.ceil(LONGEST * math.tau * math.sqrt(p.m / p.k_p) / self._piece)
+        piece = self._piece
+        last = math.ceil(LONGEST * math.tau * math.sqrt(p.m / p.k_p) / piece)
         is_slower = False  # whether the slider has been slower than the drive since the start
-        for number in range(last):
-            begin = number * self._piece
-            motion.copy_state(self._state, self._before)
-            excess = -float(self._rates()[self._psi_row])
-            code = self._advance(self._piece)
-            if code != transitions.TIME_OVER:
-                return Passage(code, begin, self._coordinates())
-            later = -float(self._rates()[self._psi_row])
-            if is_slower and later >= 0:
-                return self._stop_at_passage(begin, excess / (excess - later) * self._piece)
-            is_slower = later < 0
-        return Passage(VANISHED, last * self._piece, self._coordinates())
 
-    def _stop_at_passage(self, begin: float, time: float) -> Passage:
-        """Follow the motion from the state before the present piece, which begins at a time (s), to
-        the passage within it, whose `time` (s) since then is given in a first approximation."""
-        code = transitions.OFF_SECTION
-        for _ in range(MOST_CORRECTIONS):
+        def excess_after(time: float) -> float:
             motion.copy_state(self._before, self._state)
             self._advance(time)
-            correction = -float(self._rates()[self._psi_row]) / self._acceleration()
-            if abs(correction) <= SAME_TIME * self._piece:
-                code = RETURNED
-                break
-            time -= correction
-        return Passage(code, begin + time, self._coordinates())
+            return self._excess()
+
+        for number in range(last):
+            motion.copy_state(self._state, self._before)
+            code = self._advance(piece)
+            if code != RETURNED:
+                return Passage(code, number * piece, self._coordinates())
+            excess = self._excess()
+            if is_slower and excess >= 0:
+                time = float(brentq(excess_after, 0.0, piece, xtol=SAME_TIME * piece))
+                excess_after(time)
+                return Passage(RETURNED, number * piece + time, self._coordinates())
+            is_slower = excess < 0
+        return Passage(VANISHED, last * piece, self._coordinates())
 
 
 def find_slipping_cycle(p: Parameters, tol: float, guess: State | None) -> FloquetResult:
     """The cycle that slips all the time which Newton's method finds near a state in slip, or the
     smallest one round steady sliding."""
     sliding = steady_sliding(p)
+    where = "near the given state" if guess else "round steady sliding"
+    reason = f"no cycle {where} slips all the time"
+    orbit = None
+    map_ = None
     if not sliding.status.exists or min(p.N, p.k_p) <= 0:
         reason = "there is no steady sliding on a spring"
-        return no_cycle(p, tol, CycleStatus.NO_CYCLE, reason, SLIPPING)
-    map_ = SlippingMap(p, tol)
-    orbit = None
-    where = "round steady sliding"
-    if guess is None:
-        orbit = find_slipping_orbit(map_, sliding)
     else:
-        where = "near the given state"
-        passage = map_.next_release(guess)
-        if passage.reached:
+        map_ = SlippingMap(p, tol)
+        if guess is None:
+            orbit = find_slipping_orbit(map_, sliding)
+        elif (passage := map_.next_release(guess)).reached:
             orbit = newton(map_, passage.x)
-    if orbit is None:
-        without = f"no cycle {where} slips all the time"
-        return no_cycle(p, tol, CycleStatus.NO_CYCLE, without, SLIPPING)
+    if map_ is None or orbit is None:
+        return no_cycle(p, tol, CycleStatus.NO_CYCLE, reason, SLIPPING)
     return cycle_of(map_, orbit, SLIPPING)
 
 
@@ -290,7 +279,7 @@ def find_slipping_orbit(map_: SlippingMap, sliding: SteadySliding) -> Orbit | No
     sliding, the least damped ones first; None if there is none.
 
     Motions at growing distances from steady sliding approach it or depart from it; a cycle is
-    between two of which one grows and one decays.
+    between two of which one grows, or stops, and one decays.
     """
     equilibrium = map_.point_of(sliding.rows)
     values, vectors = np.linalg.eig(sliding.jacobian)
@@ -304,40 +293,30 @@ def find_slipping_orbit(map_: SlippingMap, sliding: SteadySliding) -> Orbit | No
         away = away / np.linalg.norm(away)
 
         def growth(distance: float, away: Array = away) -> float:
-            """Logarithm of the distance from the equilibrium after a return over that before, along
-            the latter; nan if the motion does not return."""
-            x = equilibrium + distance * away
-            orbit = map_.evaluate(x, tangent=False)
-            before = x - equilibrium
-            share = float((orbit.end - equilibrium) @ before) / float(before @ before)
-            return math.log(share) if orbit.returned and share > 0 else math.nan
+            """The distance from the equilibrium after a return over that before, along the latter, less
+            one; infinite if the motion does not return, 0 where only rounding grows."""
+            before = distance * away
+            orbit = map_.evaluate(equilibrium + before, tangent=False)
+            share = float((orbit.end - equilibrium) @ before) / distance**2
+            grown = share - 1 if orbit.returned else math.inf
+            return grown if abs(grown) > NEUTRAL else 0.0
 
-        bracket = _bracket(growth, SMALLEST * map_.deflection)
-        if bracket is None:
-            continue
-        distance = float(brentq(growth, *bracket, rtol=PRECISION))
-        orbit = newton(map_, equilibrium + distance * away)
+        low = SMALLEST * map_.deflection
+        before = growth(low)
+        high = FACTOR * low
+        while before * (after := growth(high)) >= 0 and math.isfinite(after):
+            low, high = high, FACTOR * high
+            before = after
+        while high - low > PRECISION * low and before * after < 0:
+            middle = 0.5 * (low + high)
+            found = growth(middle)
+            if before * found > 0:
+                low = middle
+            else:
+                high = middle
+        orbit = (
+            newton(map_, equilibrium + 0.5 * (low + high) * away) if before * after < 0 else None
+        )
         if orbit is not None:
             return orbit
-    return None
-
-
-def _bracket(growth: Callable[[float], float], first: float) -> tuple[float, float] | None:
-    """Two distances of which one grows and one decays, by more than rounding: neighbours, or up to
-    that at which the slider stops; None if there are none."""
-    low = first
-    before = growth(low)
-    high = FACTOR * low
-    stopped = math.inf
-    for _ in range(MOST_DISTANCES + HALVINGS):
-        after = growth(high)
-        if math.isnan(before) or (stopped < math.inf and high - low < low / 2**HALVINGS):
-            return None
-        if math.isnan(after):
-            stopped = high
-        elif before * after <= 0 and max(abs(before), abs(after)) > NEUTRAL:
-            return low, high
-        else:
-            low, before = high, after
-        high = FACTOR * low if math.isinf(stopped) else 0.5 * (low + stopped)
     return None

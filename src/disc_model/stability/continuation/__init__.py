@@ -11,12 +11,13 @@ multipliers; `cycles` is F, a branch in one parameter and its special points, `b
 stability in two; `branch` is the result, and `arguments` reads what is asked.
 """
 
-from disc_model.stability.continuation.arguments import free_faults, interval_in_si, values_in_si
+from disc_model.stability.continuation.arguments import Bounds, require_interval
 from disc_model.stability.continuation.borders import NeutralCurves, StabilityCurve, neutral_curves
 from disc_model.stability.continuation.branch import Branch, SpecialPoint, continue_cycle
 from disc_model.stability.continuation.curve import StepControl, are_slow, passings, turns_of
 
 __all__ = [
+    "Bounds",
     "Branch",
     "NeutralCurves",
     "SpecialPoint",
@@ -24,10 +25,8 @@ __all__ = [
     "StepControl",
     "are_slow",
     "continue_cycle",
-    "free_faults",
-    "interval_in_si",
     "neutral_curves",
     "passings",
+    "require_interval",
     "turns_of",
-    "values_in_si",
 ]

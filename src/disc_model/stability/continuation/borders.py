@@ -4,19 +4,20 @@
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from itertools import pairwise
-from typing import Any, Literal, NamedTuple
+from typing import Annotated, Any, Literal
 
 import numpy as np
+from pydantic import Field
 
 from disc_model.analysis.spectra import Resonance, nearest_resonance
 from disc_model.arrays import Array, ComplexArray, Mask
 from disc_model.display import counted, drawings
 from disc_model.engine.jit.cache import compiling
-from disc_model.errors import Fault, ParameterError, raise_faults, require, violations
-from disc_model.parameters import Parameters, Quantity, foreign_case
-from disc_model.simulation.states import is_finite_array
-from disc_model.stability.continuation.arguments import free_faults, interval_in_si
+from disc_model.errors import ParameterError, require
+from disc_model.parameters import Parameters
+from disc_model.stability.continuation.arguments import require_interval
 from disc_model.stability.continuation.curve import (
     DIVERGES,
     CurvePoint,
@@ -25,44 +26,41 @@ from disc_model.stability.continuation.curve import (
     StepControl,
     check_step,
     follow_curve,
-    interpolate,
-    solve,
+    passes,
     spectrum_of,
 )
 from disc_model.stability.continuation.cycles import (
+    BOUND,
+    CLOSED,
     FOLD,
     NEIMARK_SACKER,
     PERIOD_DOUBLING,
-    Course,
     CycleProblem,
     Entry,
-    Search,
+    Tracer,
     first_cycle,
     leading,
     parameter_scale,
 )
 from disc_model.stability.cycle import find_cycle, multipliers
 from disc_model.stability.return_map import newton_step
-from disc_model.units import CYCLE_TOLERANCES, is_whole, limits_faults
+from disc_model.units import UNITS, Count, CycleTolerance, Finite, Positive, Unit, checked
 
 Kind = Literal["neutral", "fold"]
-BORDER = StepControl(
-    step=0.01, longest=0.05, shortest=1e-5, max_points=400, growth=1.4, easy=0.98, sharpest=0.8
-)
-"""Steps along borders, where each point costs several cycles; one ends where a shorter step would be
-needed, as where an event grazes."""
+# of steps along borders, where each point costs several cycles: the first and the shortest length, as where
+# an event grazes; the growth of a step, and cosines of the angle of successive tangents, above which it grows
+# and below which it is shortened
+FIRST_STEP = 0.01
+SHORTEST_STEP = 1e-5
+GROWTH = 1.4
+EASY = 0.98
+SHARPEST = 0.8
 LEAST_RESEMBLANCE = 0.6  # of a multiplier's eigenvectors at two neighbouring points, at most 1
 DIFFERENCE = 1e-4  # arclength of the difference that gives a multiplier's gradient
 DEFECT = 0.1  # of a step along a border, which turns by up to 37 degrees; see `check_step`
 ON_BORDER = 1e-10  # value of the test function that counts as zero
-LONGEST_REACH = 0.1  # longest step on the way to a border
-LARGEST_TURN = (
-    0.1  # largest change of the multiplier in it; and half of it in a step along a border
-)
-REACHES = 60  # largest number of such steps
-HALVINGS = 6  # of one of them, before it is given up
+LARGEST_TURN = 0.2  # largest change of the multiplier in a step along a border
 MOST_CORRECTIONS = 12  # of Newton's method at a point of a border
-LARGEST_GROWTH = 1e3  # of its error over the least one: a first update of the gradient may be rough
 CLOSES = 0.01  # distance from the first point of a border at which it has closed, over the step
 MOST_ON_LINE = StepControl(max_points=500)  # of a branch between two points of a line
 BORDER_KINDS: Mapping[str, Kind] = {
@@ -89,12 +87,9 @@ class BorderProblem:
     Numerical methods for bifurcations of dynamical equilibria, 2000, Section 4.1).
     """
 
-    def __init__(
-        self, kind: Kind, p: Parameters, names: tuple[str, str], tol: float, steps: StepControl
-    ) -> None:
+    def __init__(self, kind: Kind, p: Parameters, names: Sequence[str], tol: float) -> None:
         self.kind = kind
-        self.steps = steps
-        self.cycles = CycleProblem(p, names, None, tol)
+        self.cycles = CycleProblem(p, names, [parameter_scale(p, name) for name in names], tol)
         self.column = np.zeros(self.cycles.n)
         self.row = np.zeros(self.cycles.n)
         self.left = np.zeros(self.cycles.n, complex)
@@ -105,7 +100,8 @@ class BorderProblem:
         z = self.cycles.place(x)
         found = self.cycles.evaluate(z)
         self._keep_vectors(found.jacobian, mu)
-        return self._reach(z, found)
+        _, mu = self._test(found.jacobian)
+        return self._correct(self._point(z, found, mu), 0.0)
 
     def next_point(self, points: Sequence[CurvePoint], ds: float) -> list[CurvePoint]:
         """The border's point at arclength ds beyond the last of some; raises `Rejected` if a
@@ -114,7 +110,7 @@ class BorderProblem:
         ahead = self._correct(current, ds)
         if float(ahead.tangent @ current.tangent) < 0:
             ahead = ahead.reversed()
-        check_step(current, ahead, self.steps.sharpest, DEFECT)
+        check_step(current, ahead, DEFECT, SHARPEST)
         return [ahead]
 
     def _keep_vectors(self, jacobian: Array, mu: complex) -> None:
@@ -177,41 +173,11 @@ class BorderProblem:
             turning=turns @ basis,
         )
 
-    def _reach(self, z: Array, found: Evaluation) -> CurvePoint:
-        """Move from a cycle near the border onto it, by the shortest way on the surface."""
-        value, mu = self._test(found.jacobian)
-        for _ in range(REACHES):
-            here = self._point(z, found, mu)
-            if abs(value) < ON_BORDER:
-                return here
-            move = -value * here.gradient / (here.gradient @ here.gradient)
-            turn = abs(complex(here.turning @ move))
-            shares = (
-                1.0,
-                LONGEST_REACH / float(np.linalg.norm(move)),
-                LARGEST_TURN / max(turn, 1e-300),
-            )
-            z, found, value, mu = self._moved(here, min(shares) * move)
-        raise Rejected("no point of the curve was found near the first cycle")
-
-    def _moved(self, here: CurvePoint, move: Array) -> tuple[Array, Evaluation, float, complex]:
-        """The cycle in the direction of a move on the surface, at a shorter distance if need be,
-        and the test function there."""
-        rows = np.vstack([here.tangent, here.gradient / np.linalg.norm(here.gradient)])
-        matrix = np.vstack([here.by, rows])
-        for _ in range(HALVINGS):
-            try:
-                z, found = solve(self.cycles, here.z + move, rows, matrix)
-                return z, found, *self._test(found.jacobian)
-            except Rejected:
-                move = move / 2
-        raise Rejected(DIVERGES)
-
     def _correct(self, start: CurvePoint, ds: float) -> CurvePoint:
         """The border's point at arclength ds: F = 0, test = 0, and the plane normal to the
         tangent."""
         expected = start.mu + complex(start.turning @ (ds * start.tangent))
-        if abs(expected - start.mu) > 2 * LARGEST_TURN:
+        if abs(expected - start.mu) > LARGEST_TURN:
             raise Rejected("the multiplier turns too fast")
         guess = start.z + ds * start.tangent
         rows = start.tangent[None, :]
@@ -219,15 +185,10 @@ class BorderProblem:
         z = guess
         found = self.cycles.evaluate(z)
         value, mu = self._test(found.jacobian)
-        least = math.inf
         for _ in range(MOST_CORRECTIONS):
             right = np.concatenate([found.residual, [value], rows @ (z - guess)])
-            error = float(np.linalg.norm(right))
-            if error < ON_BORDER:
+            if float(np.linalg.norm(right)) < ON_BORDER:
                 return self._point(z, found, mu)
-            least = min(least, error)
-            if not error <= LARGEST_GROWTH * least:
-                break
             move = -newton_step(np.vstack([found.by, gradient, rows]), right)
             z = z + move
             found = self.cycles.evaluate(z)
@@ -238,50 +199,36 @@ class BorderProblem:
         raise Rejected(DIVERGES)
 
 
-class _Watch:
-    """Whether a border ends at its last point: out of the bounds, or back at its first point."""
-
-    def __init__(
-        self, problem: BorderProblem, first: CurvePoint, bounds: Mapping[str, tuple[float, float]]
-    ) -> None:
-        self.first = first
-        self.n = problem.cycles.n
-        self.low, self.high = np.array(list(bounds.values())).T / problem.cycles.scales
-        self.closed = False
-
-    def __call__(self, points: list[CurvePoint]) -> bool:
-        values = points[-1].z[self.n :]
-        if np.any(values < self.low) or np.any(values > self.high):
-            return True
-        if len(points) > 3 and self._closes(*points[-2:]):
-            points[-1] = self.first
-            self.closed = True
-        return self.closed
-
-    def _closes(self, before: CurvePoint, new: CurvePoint) -> bool:
-        chord = new.z - before.z
-        length = float(np.linalg.norm(chord))
-        share = float((self.first.z - before.z) @ chord) / length**2
-        if not 0 < share <= 1 or abs(self.first.mu - new.mu) > 2 * LARGEST_TURN:
-            return False
-        expected = interpolate(before, new, share)
-        return float(np.linalg.norm(expected.z - self.first.z)) < CLOSES * length
-
-
 def follow_border(
-    problem: BorderProblem, first: CurvePoint, bounds: Mapping[str, tuple[float, float]]
+    problem: BorderProblem,
+    first: CurvePoint,
+    bounds: Mapping[str, tuple[float, float]],
+    steps: StepControl,
 ) -> list[CurvePoint]:
     """The points of a border through its first one, both ways until it leaves the bounds, closes or
     ends; raises `Rejected` if no step along it succeeds."""
-    slopes = first.tangent[problem.cycles.n :]
+    n = problem.cycles.n
+    low, high = np.array(list(bounds.values())).T / problem.cycles.scales
+
+    def watch(points: list[CurvePoint]) -> str:
+        """Whether a border ends at its last point: out of the bounds, or back at its first point."""
+        start, new = points[0], points[-1]
+        if np.any((new.z[n:] < low) | (new.z[n:] > high)):
+            return BOUND
+        alike = len(points) > 3 and abs(start.mu - new.mu) <= LARGEST_TURN
+        if alike and passes(points[-2], new, start, CLOSES) is not None:
+            points[-1] = start
+            return CLOSED
+        return ""
+
+    slopes = first.tangent[n:]
     slope = slopes[0] if abs(slopes[0]) > 1e-12 else slopes[1]
-    onward = first.turned(-1 if slope < 0 else 1)
-    watch = _Watch(problem, onward.reversed(), bounds)
-    points, _ = follow_curve(onward.reversed(), problem.next_point, problem.steps, watch)
-    if not watch.closed:
-        ahead = _Watch(problem, onward, bounds)
-        onwards, _ = follow_curve(onward, problem.next_point, problem.steps, ahead)
-        points = [*points[:0:-1], *onwards]
+    onward = first.reversed() if slope < 0 else first
+    follow = partial(follow_curve, advance=problem.next_point, steps=steps, watch=watch)
+    points, end = follow(onward.reversed(), growth=GROWTH, easy=EASY)
+    if end != CLOSED:
+        ahead, _ = follow(onward, growth=GROWTH, easy=EASY)
+        points = [*points[:0:-1], *ahead]
     if len(points) == 1:
         raise Rejected("no step along the curve succeeds")
     return points
@@ -351,16 +298,21 @@ class NeutralCurves:
         return drawings().curves(ax, self, **look)
 
 
+Plane = Annotated[dict[str, tuple[Finite, Finite]], Unit(UNITS), Field(min_length=2, max_length=2)]
+"""Bounds of two parameters by their names."""
+
+
+@checked
 @compiling()
 def neutral_curves(
     case: Parameters,
-    bounds: Mapping[str, tuple[Quantity, Quantity]],
-    lines: Sequence[float],
+    bounds: Plane,
+    lines: tuple[Finite, ...],
     *,
-    points: int = 31,
-    max_points: int = 200,
-    longest: float = 0.1,
-    tol: float = 1e-12,
+    points: Annotated[Count, Field(ge=2, le=MOST_POINTS)] = 31,
+    max_points: Annotated[Count, Field(ge=1)] = 200,
+    longest: Positive = 0.1,
+    tol: CycleTolerance = 1e-12,
 ) -> NeutralCurves:
     """Neutral curves and folds of the cycles near the static start, in the plane of two parameters.
 
@@ -394,51 +346,19 @@ def neutral_curves(
     >>> len(curves), curves.curves[0].resonance.label
     (1, '2 f_s = 135.42 Hz')
     """
-    raise_faults(foreign_case(case))
-    steps = BORDER.replace(longest=longest, max_points=max_points)
-    of_bounds: list[Fault] = []
-    plane = _plane_in_si(bounds, of_bounds)
-    within = bool(plane) and all(ends is not None for ends in plane.values())
-    counts = is_whole(points) and 2 <= points <= MOST_POINTS
-    rule = "must be two ascending finite numbers, by the names of two parameters"
-    wrong = limits_faults("tol", tol, CYCLE_TOLERANCES) + violations(
-        (within or bool(of_bounds), "bounds", bounds, rule),
-        (is_finite_array(lines), "lines", lines, "must be finite numbers"),
-        (counts, "points", points, f"must be a whole number from 2 to {MOST_POINTS}"),
+    for name, ends in bounds.items():
+        require_interval(case, name, ends)
+    y, (low, high) = list(bounds.items())[1]
+    beside = [line for line in lines if not low <= line <= high]
+    rule = f"must lie within the bounds of {y}, {low:g} to {high:g}"
+    require((not beside, "lines", beside, rule))
+    steps = StepControl(
+        step=FIRST_STEP, longest=longest, shortest=SHORTEST_STEP, max_points=max_points
     )
-    wrong += of_bounds
-    if within and not wrong:
-        low, high = list(plane.values())[1]
-        beside = [line for line in lines if not low <= line <= high]
-        y = list(plane)[1]
-        wrong += violations(
-            (not beside, "lines", beside, f"must lie within the bounds of {y}, {low:g} to {high:g}")
-        )
-    raise_faults(wrong + free_faults(case, list(plane)))
-
-    search = _CurveSearch(case, plane, float(tol), steps)
-    for line in map(float, lines):
+    search = _CurveSearch(case, bounds, tol, steps)
+    for line in lines:
         search.scan(line, points)
-    return NeutralCurves(case, plane, tuple(search.curves), tuple(search.failures))
-
-
-def _plane_in_si(bounds: Any, faults: list[Fault]) -> dict[Any, Any]:
-    """Bounds of two parameters in SI units, by name, None for bounds that are not an interval;
-    empty unless there are two names. Units of another kind are added to the faults."""
-    if not isinstance(bounds, Mapping) or len(bounds) != 2:
-        return {}
-    return {name: interval_in_si(name, ends, faults) for name, ends in bounds.items()}
-
-
-class _Seed(NamedTuple):
-    """A special point of a branch from which a curve is followed: its kind, its case, its point of
-    the section, its critical multiplier, and its period, s."""
-
-    kind: Kind
-    case: Parameters
-    x: Array
-    mu: complex
-    period: float
+    return NeutralCurves(case, bounds, tuple(search.curves), tuple(search.failures))
 
 
 @dataclass
@@ -457,105 +377,88 @@ class _CurveSearch:
     curves: list[StabilityCurve] = field(default_factory=list)
     failures: list[str] = field(default_factory=list)
 
-    def __post_init__(self) -> None:
-        x, y = self.plane
-        self.names = (x, y)
-        self.span = np.array([high - low for low, high in self.plane.values()])
-
     def scan(self, line: float, points: int) -> None:
         """Follow all curves that pass between the points of a line, on which the second parameter
         has one value: from special points where the cycle changes stability or ends, by continuation
         from both neighbours."""
-        x, y = self.names
+        x, y = self.plane
         along = np.linspace(*self.plane[x], points).tolist()
         cases = [self.p.replace(**{y: line, x: value}) for value in along]
-        growth = np.array([find_cycle(case, self.tol).growth_rate for case in cases])
+        growth = [find_cycle(case, self.tol).growth_rate for case in cases]
         for i, (before, after) in enumerate(pairwise(growth)):
             if before * after > 0:
                 continue
             for begin, end in ((i, i + 1), (i + 1, i)):
-                if not np.isnan(growth[begin]):
-                    seed = self._seed_towards(cases, growth, begin, end)
-                    if seed is not None:
-                        self._follow(seed)
+                if not math.isnan(growth[begin]):
+                    # beyond the neighbour as long as the stable cycle goes on where the search from
+                    # the static start finds none that is stable
+                    step = end - begin
+                    beyond = growth[end::step]
+                    until = next((n for n, rate in enumerate(beyond) if rate < 0), len(beyond))
+                    most = until + 1 if growth[begin] < 0 else 1
+                    self._seek(cases[begin], along[end::step][:most])
 
-    def _seed_towards(
-        self, cases: Sequence[Parameters], growth: Array, begin: int, end: int
-    ) -> _Seed | None:
-        """The special point from a case of a line towards its neighbour, or beyond it as long as the
-        stable cycle goes on where the search from the static start finds none that is stable."""
-        name = self.names[0]
-        step = end - begin
-        told = len(self.failures)
-        for each in cases[end::step]:
-            seed = self._seed(cases[begin], each.numbers[name])
-            lost = seed is not None or len(self.failures) > told
-            if lost or not growth[begin] < 0 or growth[end] < 0:
-                return seed
-            end += step
-        return None
-
-    def _seed(self, case: Parameters, end: float) -> _Seed | None:
-        """The special point of a branch from a case to another value of the first parameter at which a
-        stable cycle first gains or loses stability, or ends; without a stable one, the first special
-        point. What cannot be followed, or ends elsewhere, is among the failures."""
-        name = self.names[0]
+    def _seek(self, case: Parameters, ends: Sequence[float]) -> None:
+        """Follow the curve from the special point towards the first of some values of the first
+        parameter, or else the next ones, at which a stable cycle first gains or loses stability, or ends;
+        without a stable one, from the first special point. What cannot be followed, or ends elsewhere, is
+        among the failures."""
+        name = next(iter(self.plane))
         begin = case.numbers[name]
-        span = (min(begin, end), max(begin, end))
-        scale = parameter_scale(case, name, max(map(abs, span)))
-        try:
-            problem, cycle = first_cycle(case, name, scale, self.tol)
-            search = Search(problem, MOST_ON_LINE, span)
-            course = search.follow(problem.start(cycle), 1 if begin < end else -1)
-        except ParameterError as error:
-            self.failures.append(f"{name}={begin:.6g}: {error}")
-            return None
-        border = _border_of(course)
-        if border is None:
+        for end in ends:
+            span = (min(begin, end), max(begin, end))
+            try:
+                problem, start = first_cycle(case, name, max(map(abs, span)), self.tol)
+                course = Tracer(problem, MOST_ON_LINE, span).follow(start, 1 if begin < end else -1)
+            except (ParameterError, Rejected) as error:
+                self.failures.append(f"{name}={begin:.6g}: {error}")
+                return
+            border = _border_of(course.entries)
+            if border is not None:
+                self._follow(problem, border)
+                return
             # the cycle may reach the other value, where it is only far from the static start
-            if abs(problem.values(course.points[-1])[0] / end - 1) > 1e-12:
+            if abs(problem.values(course.entries[-1].point.z)[0] / end - 1) > 1e-12:
                 self.failures.append(f"{name} from {begin:.6g} to {end:.6g}: {course.last}")
-            return None
-        z = border.point.z
-        return _Seed(
-            BORDER_KINDS[border.kind],
-            problem.case(z),
-            problem.section_point(z),
-            border.multiplier,
-            border.point.orbit.period,
-        )
+                return
 
-    def _follow(self, seed: _Seed) -> None:
-        """Follow the curve through a special point, unless it is known."""
-        place = np.array([seed.case.numbers[name] for name in self.names])
-        if self._is_known(seed.kind, place, seed.period):
+    def _follow(self, found: CycleProblem, border: Entry) -> None:
+        """Follow the curve through a special point of cycles, unless it is known."""
+        kind = BORDER_KINDS[border.kind]
+        case = found.case(border.point.z)
+        place = np.array([case.numbers[name] for name in self.plane])
+        if self._is_known(kind, place, border.point.orbit.period):
             return
         try:
-            problem = BorderProblem(seed.kind, seed.case, self.names, self.tol, self.steps)
-            points = follow_border(problem, problem.first(seed.x, seed.mu), self.plane)
+            problem = BorderProblem(kind, case, [*self.plane], self.tol)
+            first = problem.first(found.section_point(border.point.z), border.multiplier)
+            points = follow_border(problem, first, self.plane, self.steps)
         except (ParameterError, Rejected) as error:
-            x, y = self.names
-            where = f"{x}={place[0]:.6g}, {y}={place[1]:.6g}"
-            self.failures.append(f"{seed.kind} near {where}: {error}")
+            where = ", ".join(
+                f"{x}={value:.6g}" for x, value in zip(self.plane, place, strict=True)
+            )
+            self.failures.append(f"{kind} near {where}: {error}")
             return
 
         # it may turn out to be known at the point halfway along it, since points are dense where
         # two borders meet
         curve = _curve(problem, points)
-        steps = np.linalg.norm(np.diff(curve.values / self.span, axis=0), axis=1)
-        length = np.cumsum(steps)
+        length = np.cumsum(np.linalg.norm(np.diff(curve.values / self._span, axis=0), axis=1))
         i = int(np.searchsorted(length, length[-1] / 2)) + 1
-        if not self._is_known(seed.kind, curve.values[i], float(curve.period[i])):
+        if not self._is_known(kind, curve.values[i], float(curve.period[i])):
             self.curves.append(curve)
+
+    @property
+    def _span(self) -> Array:
+        return np.diff(list(self.plane.values()))[:, 0]
 
     def _is_known(self, kind: str, place: Array, period: float) -> bool:
         """Whether a known curve of this kind, with cycles of this period (s), passes through a
         place of the plane."""
         for curve in self.curves:
-            if curve.kind != kind:
-                continue
-            distance, period_there = _nearest_on(curve, place, self.span)
-            if distance < SAME_PLACE and abs(period_there / period - 1) < SAME_PERIOD:
+            distance, period_there = _nearest_on(curve, place, self._span)
+            close = distance < SAME_PLACE and abs(period_there / period - 1) < SAME_PERIOD
+            if curve.kind == kind and close:
                 return True
         return False
 
@@ -574,18 +477,17 @@ def _nearest_on(curve: StabilityCurve, point: Array, span: Array) -> tuple[float
     return float(distance[i]), float(curve.period[i] + share[i] * change)
 
 
-def _border_of(course: Course) -> Entry | None:
+def _border_of(entries: Sequence[Entry]) -> Entry | None:
     """The first special point of a branch beside a stable cycle, or the first of all, on a border."""
-    points = course.points
-    passed = 0
     first = None
-    for entry in course.entries:
-        if not entry.kind:
-            passed += 1
-        if entry.kind in BORDER_KINDS:
-            first = first or entry
-            if any(abs(leading(point)) < 1 for point in points[max(passed - 1, 0) : passed + 1]):
-                return entry
+    for i, entry in enumerate(entries):
+        if entry.kind not in BORDER_KINDS:
+            continue
+        first = first or entry
+        before = [each for each in entries[:i] if not each.kind][-1:]
+        after = [each for each in entries[i:] if not each.kind][:1]
+        if any(abs(leading(each.point)) < 1 for each in before + after):
+            return entry
     return first
 
 
@@ -601,7 +503,7 @@ def _curve(problem: BorderProblem, points: Sequence[CurvePoint]) -> StabilityCur
     diameters = cycles.leading_diameters(points[middle])
     return StabilityCurve(
         kind=problem.kind,
-        values=np.array([cycles.values(point) for point in points]),
+        values=np.array([cycles.values(point.z) for point in points]),
         adjoins_stable_cycle=adjoins_stable,
         period=period,
         multipliers=mu,

@@ -3,13 +3,14 @@ along `special`."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
 import xarray as xr
+from pydantic import InstanceOf
 
 from disc_model.arrays import Array, Mask
 from disc_model.data.columns import with_complex_values, with_real_parts
@@ -19,43 +20,42 @@ from disc_model.data.variables import (
     OF_RESULTS,
     attributes_of_number,
     unit_of_parameter,
+    value_with_unit,
 )
 from disc_model.display import counted, drawings, progress_bar
 from disc_model.engine.jit.cache import compiling
-from disc_model.errors import Fault, raise_faults, require, rule_of_choice, violations
-from disc_model.parameters import Parameters, Quantity
+from disc_model.errors import raise_faults, require, rule_of_choice
+from disc_model.parameters import Parameters
 from disc_model.provenance import versions_text
-from disc_model.simulation.states import State, is_finite
+from disc_model.simulation.states import State
 from disc_model.stability.continuation.arguments import (
     CHANGES,
     LABELS,
     ROUNDING,
-    STOPS,
-    read_values,
+    Bounds,
+    require_interval,
+    require_within,
     stop_kinds,
-    values_in_si,
 )
-from disc_model.stability.continuation.curve import CurvePoint, StepControl
+from disc_model.stability.continuation.curve import MOST_POINTS, CurvePoint, StepControl
 from disc_model.stability.continuation.cycles import (
     CLOSED,
     GRAZING,
     HOPF,
     LOST,
-    MOST_POINTS,
     PERIOD_DOUBLING,
     SAME_VALUE,
     STOPPED,
     Course,
+    CycleProblem,
     Entry,
-    Search,
+    Tracer,
     first_cycle,
-    growth_rate,
     leading,
-    parameter_scale,
 )
 from disc_model.stability.cycle import STICK_SLIP, guess_faults, multipliers
 from disc_model.stability.segments import extremes_of_cycle
-from disc_model.units import CYCLE_TOLERANCES, is_number, limits_faults
+from disc_model.units import Count, CycleTolerance, Finite, Unit, checked
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -67,6 +67,10 @@ SHOWN_ENDS = (GRAZING, HOPF, PERIOD_DOUBLING, MOST_POINTS, LOST)
 NEUTRAL = 1e-6  # logarithm of a multiplier's modulus that counts as 0 at a special point
 STATE = ("psi", "f", "u", "u_velocity", "phase", "direction", *COORDINATES)
 """Values of a cycle's state on the section, at time 0."""
+OF_CYCLES = (
+    *("largest_multiplier", "stable", "multipliers", "separations", "releases", "diameters"),
+)
+"""What is given of the points of a branch, but not of special ones."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -81,7 +85,8 @@ class SpecialPoint:
         cycle shrinks to steady sliding; "branch_point", another branch crosses; "end", of the branch;
         "max_points", its end for no other reason than the number of points; "lost", its end where no step succeeds
     label : of the kind in AUTO and COCO: LP, PD, TR, BP, HB, EP; GR
-    period : s; stick_fraction; growth_rate : 1/s; range, u_min, u_max : m
+    period : s; stick_fraction; range, u_min, u_max : m
+    growth_rate : 1/s; exactly 0 where the cycle gains or loses stability
     multiplier : the one that is critical; at a grazing and at an end, the leading one
     after : number of the point of the branch before it, or at it
     changes_stability : whether the cycle gains or loses stability there
@@ -96,24 +101,22 @@ class SpecialPoint:
         return self.branch.variable(f"special_{name}")[self.number].item()
 
     @property
-    def values(self) -> Array:
-        """The free parameters, SI units, shape (n_parameters,)."""
-        names = self.branch.parameters
-        return np.array([getattr(self, name) for name in names])
+    def value(self) -> float:
+        """The free parameter, SI units."""
+        return float(getattr(self, self.branch.name))
 
     @property
     def case(self) -> Parameters:
-        """The case with the values of this point."""
-        return self.branch.case_of(self.values)
+        """The case with the value of this point."""
+        return self.branch.case.replace(**{self.branch.name: self.value})
 
     @property
     def state(self) -> State:
         """The cycle's state on the section, at time 0, to simulate and draw."""
-        return self.branch.state_of(self.number, "special_")
+        return self.branch.state(self.number, "special_")
 
     def __repr__(self) -> str:
-        values = ", ".join(f"{value:.9g}" for value in self.values)
-        return f"SpecialPoint({self.kind} at {values}, period {self.period:.6g} s)"
+        return f"SpecialPoint({self.kind} at {self.value:.9g}, period {self.period:.6g} s)"
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -124,14 +127,13 @@ class Branch:
 
     Attributes
     ----------
-    data : the dataset, without the heights of `to_dataset`
+    data : the dataset
     period : s; stick_fraction; growth_rate : 1/s; each (n_points,)
     stable : bool, (n_points,), whether disturbances decay
     multipliers : complex, (n_points, n), largest modulus first
     diameters : int, (n_points,), nodal diameters of the modes with most energy in the leading multiplier's eigenvector
     separations, releases : int, (n_points,), in a period: twice as many releases beyond a period doubling
-    range, u_min, u_max : m, (n_points,), of the slider's height over static equilibrium in a period; each cycle is
-        simulated for a period when they are first asked for
+    range, u_min, u_max : m, (n_points,), of the slider's height over static equilibrium in a period
 
     Examples
     --------
@@ -150,21 +152,18 @@ class Branch:
 
     def variable(self, name: str) -> Array:
         """A variable of the dataset."""
-        data = self.data
-        if name.removeprefix("special_") in ("range", "u_min", "u_max"):
-            data = self._complete
-        if name not in data.variables:
+        if name not in self.data.variables:
             raise AttributeError(f"a branch has no {name}")
-        return np.asarray(data[name].values)
+        return np.asarray(self.data[name].values)
 
     @property
-    def parameters(self) -> tuple[str, ...]:
-        """Names of the free parameters."""
-        return tuple(str(self.data.attrs["free_parameters"]).split(", "))
+    def name(self) -> str:
+        """The free parameter."""
+        return str(self.data.attrs["free_parameters"])
 
     @property
     def case(self) -> Parameters:
-        """The case whose cycle is followed; its own values of the free parameters do not count."""
+        """The case whose cycle is followed; its own value of the free parameter does not count."""
         return Parameters.model_validate_json(self.data.attrs["parameters"])
 
     @property
@@ -177,15 +176,9 @@ class Branch:
         return str(self.data.attrs["ended"])
 
     @property
-    def not_reached(self) -> Array:
-        """Those of the `values` asked for at which the branch has no cycle, in SI units."""
-        text = str(self.data.attrs.get("not_reached", ""))
-        return np.array([float(value) for value in text.split(", ") if value])
-
-    @property
     def values(self) -> Array:
-        """The free parameters, shape (n_points, n_parameters), in SI units."""
-        return np.column_stack([self.variable(name) for name in self.parameters])
+        """The free parameter, shape (n_points,), in SI units."""
+        return self.variable(self.name)
 
     @property
     def special(self) -> tuple[SpecialPoint, ...]:
@@ -199,27 +192,22 @@ class Branch:
 
     @property
     def folds(self) -> Array:
-        """Values at which the first parameter turns, located to rounding, shape (n_folds, n_parameters)."""
-        folds = [each.values for each in self.special if each.kind == "fold"]
-        return np.array(folds).reshape(-1, len(self.parameters))
+        """Values at which the parameter turns, located to rounding, shape (n_folds,)."""
+        return self.variable(f"special_{self.name}")[self.variable("special_kind") == "fold"]
 
     def __len__(self) -> int:
         return int(self.data.sizes["point"])
 
     def __repr__(self) -> str:
-        spans = []
-        for name in self.parameters:
-            values = np.concatenate([self.variable(name), self.variable(f"special_{name}")])
-            unit = unit_of_parameter(name)
-            spans.append(f"{name} from {values.min():.6g} to {values.max():.6g} {unit}".rstrip())
+        values = np.concatenate([self.values, self.variable(f"special_{self.name}")])
+        unit = unit_of_parameter(self.name)
+        span = f"{self.name} from {values.min():.6g} to {values.max():.6g} {unit}".rstrip()
         folds = counted(len(self.folds), "fold")
-        missed = ", ".join(f"{value:.6g}" for value in self.not_reached)
-        text = f"Branch({len(self)} cycles, {', '.join(spans)}, {folds}; ended: {self.ended}"
-        return f"{text}; not reached: {missed})" if missed else f"{text})"
+        return f"Branch({len(self)} cycles, {span}, {folds}; ended: {self.ended})"
 
     @property
     def special_points(self) -> pd.DataFrame:
-        """The special points as a table: their `kind` and `label`, the parameters by their names (SI
+        """The special points as a table: their `kind` and `label`, the parameter by its name (SI
         units), the other variables along `special`, and `state`, a `State` of the cycle.
 
         Examples
@@ -232,41 +220,21 @@ class Branch:
         1  fold    LP  15.094912
         2   end    EP  14.800000
         """
-        import pandas as pd
-
-        names = ("kind", "label", *self.parameters, *VARIABLES, "multiplier", "after")
-        columns: dict[str, Any] = {name: self.variable(f"special_{name}") for name in names}
-        columns["state"] = [each.state for each in self.special]
-        return pd.DataFrame(columns)
-
-    @cached_property
-    def _complete(self) -> xr.Dataset:
-        """The dataset with the heights of the slider, for which each cycle is simulated."""
-        heights = dict[str, xr.Variable]()
-        for dim, begin in (("point", ""), ("special", "special_")):
-            periods = self.variable(f"{begin}period")
-            values = np.column_stack([self.variable(begin + name) for name in self.parameters])
-            rows = []
-            for i, period in enumerate(periods.tolist()):
-                state = self.state_of(i, begin)
-                rows.append(extremes_of_cycle(self.case_of(values[i]), state, period))
-            low, high = np.reshape(rows, (-1, 2)).T
-            columns = {"range": high - low, "u_min": low, "u_max": high}
-            heights |= _variables(dim, begin, columns, np.ones(len(rows), dtype=bool))
-        return self.data.assign(heights)
+        table = self.data.drop_dims(["point", "mode", "multiplier"]).to_dataframe()
+        table.columns = [str(name).removeprefix("special_") for name in table]
+        states: Any = {"state": [each.state for each in self.special]}
+        return table.reset_index(drop=True).assign(**states)
 
     def to_dataset(self) -> xr.Dataset:
         """The whole branch as a dataset, to save, or to handle by xarray and pandas.
 
-        Along `point`: the parameters by their names, `growth_rate` (1/s), `period` (s),
-        `stick_fraction`, `range`, `u_min` and `u_max` (m, for which each cycle is simulated for a period),
-        `largest_multiplier` (modulus), `stable`, `separations`, `releases`, `diameters`,
-        `multipliers_real` and `multipliers_imag`, and the cycle's state on the section: `psi`, `f`, `u`, `u_velocity`,
-        `phase`,
-        `direction` and, along `mode`, `a`, `b`, `alpha`, `beta`. Along `special`, each with the beginning `special_`:
-        `special_kind`, `special_label`, the parameters, `special_multiplier`, `special_after`,
-        `special_changes_stability`, and what cycles have, the state included. Attributes: `ended`,
-        the case's `parameters` in JSON, and `not_reached` if there are such values.
+        Along `point`: the parameter by its name, `growth_rate` (1/s), `period` (s),
+        `stick_fraction`, `range`, `u_min` and `u_max` (m), `largest_multiplier` (modulus), `stable`,
+        `separations`, `releases`, `diameters`, `multipliers_real` and `multipliers_imag`, and the cycle's
+        state on the section: `psi`, `f`, `u`, `u_velocity`, `phase`, `direction` and, along `mode`, `a`,
+        `b`, `alpha`, `beta`. Along `special`, each with the beginning `special_`: `special_kind`,
+        `special_label`, the parameter, `special_multiplier`, `special_after`, `special_changes_stability`,
+        and what cycles have, the state included. Attributes: `ended`, and the case's `parameters` in JSON.
 
         Examples
         --------
@@ -279,7 +247,7 @@ class Branch:
         >>> dm.load("branch.nc").identical(data)
         True
         """
-        return with_real_parts(self._complete)
+        return with_real_parts(self.data)
 
     @classmethod
     def from_dataset(cls, data: xr.Dataset) -> Branch:
@@ -302,46 +270,26 @@ class Branch:
         """
         if is_of_sweep(data):
             data = branch_of_sweep(data)
-        names = ["multipliers_real", "releases", "special_kind", "u_max", "a", "special_a"]
-        known = isinstance(data, xr.Dataset) and all(name in data for name in names)
-        known = known and {"ended", "parameters", "free_parameters"} <= set(data.attrs)
+        names = {"multipliers_real", "releases", "special_kind", "u_max", "a", "special_a"}
+        attrs = {"ended", "parameters", "free_parameters"}
+        known = isinstance(data, xr.Dataset) and names <= {*data} and attrs <= {*data.attrs}
         rule = "must be a dataset of Branch.to_dataset, or a point of a sweep, whole and unchanged"
         require((known, "data", type(data).__name__, rule))
-        whole = with_complex_values(data)
-        branch = cls(whole)
-        vars(branch)["_complete"] = whole  # whose heights take a simulation of each cycle
-        return branch
+        return cls(with_complex_values(data))
 
-    def at(self, value: Quantity) -> list[int]:
-        """Numbers of the cycles at a value of the first parameter, in SI units or as a text with a unit,
-        along the branch; none if the branch passes it between two cycles or not at all.
-
-        Raises `ParameterError` if it is no number.
-        """
-        name = self.parameters[0]
-        faults = list[Fault]()
-        [wanted] = values_in_si(name, [value], faults, "value")
-        raise_faults(faults)
-        require((is_finite(wanted), "value", value, "must be one finite number"))
-        apart = np.abs(self.variable(name) - wanted)
-        return np.flatnonzero(apart <= ROUNDING * abs(wanted)).tolist()
-
-    def case_of(self, values: Array) -> Parameters:
-        """The case followed with some values of the free parameters, in SI units."""
-        return self.case.replace(**dict(zip(self.parameters, values.tolist(), strict=True)))
+    def at(self, value: float) -> list[int]:
+        """Numbers of the cycles at a value of the parameter, in SI units, along the branch; none if the
+        branch passes it between two cycles or not at all."""
+        return np.flatnonzero(np.abs(self.values - value) <= ROUNDING * abs(value)).tolist()
 
     def case_at(self, i: int) -> Parameters:
         """The case of the i-th cycle."""
-        return self.case_of(self.values[i])
+        return self.case.replace(**{self.name: float(self.values[i])})
 
-    def state_of(self, i: int, begin: str = "") -> State:
-        """The state of the i-th cycle, or with the beginning "special_" that of a special point."""
-        row = {name: self.variable(begin + name)[i].tolist() for name in STATE}
-        return State(time=0.0, **row)
-
-    def state(self, i: int) -> State:
+    def state(self, i: int, begin: str = "") -> State:
         """The state of the i-th cycle on the section, at the end of stick or, without stick, where
-        the spring is longest, and at time 0, to simulate and draw; the cycle may be unstable.
+        the spring is longest, and at time 0, to simulate and draw; the cycle may be unstable. With the
+        beginning "special_", that of the i-th special point.
 
         Examples
         --------
@@ -353,24 +301,14 @@ class Branch:
         >>> float(abs(run.final_state.u / branch.state(-1).u - 1)) < 1e-10
         True
         """
-        return self.state_of(i)
+        return State(time=0.0, **{name: self.variable(begin + name)[i].tolist() for name in STATE})
 
     def refined(self, name: str) -> Array:
-        """A variable, or `values`, at the points of the branch and, in their places between these, at
-        its `changes`; shape (n_points + n_changes, ...), in SI units."""
-        changes = self.changes
-        located = [getattr(each, name) for each in changes]
-        own = np.asarray(getattr(self, name))
-        if not located:
-            return own
-        return np.insert(own, [each.after + 1 for each in changes], located, axis=0)
-
-    def refined_growth_rate(self) -> Array:
-        """As `refined("growth_rate")`, 1/s, and exactly 0 where the cycle gains or loses stability."""
-        growth = self.refined("growth_rate").copy()
-        periods = [each.period for each in self.changes if each.changes_stability]
-        growth[np.isin(self.refined("period"), periods)] = 0.0
-        return growth
+        """A variable of each cycle, such as the parameter, at the points of the branch and, in their
+        places between these, at its `changes`; shape (n_points + n_changes,), in SI units."""
+        located = np.isin(self.variable("special_kind"), CHANGES)
+        places = 1 + self.variable("special_after")[located].astype(int)
+        return np.insert(self.variable(name), places, self.variable(f"special_{name}")[located])
 
     def plot(
         self,
@@ -402,75 +340,74 @@ class Branch:
 # ---- What a continuation has found, in SI units
 
 
-def branch_of(course: Course, exact: Sequence[float] = (), wanted: Sequence[float] = ()) -> Branch:
+def row_of(problem: CycleProblem, point: CurvePoint) -> dict[str, Any]:
+    """What is kept of a cycle while the map of its case is at hand, the extremes of the slider's height
+    by simulation."""
+    whole = problem.state(point.z)
+    own = {name: getattr(whole, name) for name in STATE}
+    period = point.orbit.period
+    low, high = extremes_of_cycle(problem.case(point.z), State(time=0.0, **own), period)
+    values = multipliers(point.jacobian)
+    largest = abs(complex(values[0]))
+    growth_rate = math.log(largest) / period if largest else -math.inf
+    return {
+        problem.names[0]: float(problem.values(point.z)[0]),
+        "growth_rate": growth_rate,
+        "period": period,
+        "stick_fraction": point.orbit.stick_time / period,
+        "range": high - low,
+        "u_min": low,
+        "u_max": high,
+        **own,
+        "largest_multiplier": largest,
+        "stable": growth_rate < 0,
+        "multipliers": values,
+        "separations": point.orbit.counts.separations,
+        "releases": point.orbit.counts.releases,
+        "diameters": problem.leading_diameters(point),
+    }
+
+
+def branch_of(problem: CycleProblem, course: Course, exact: Sequence[float] = ()) -> Branch:
     """The branch of a course. Values of the parameter that scaling has moved by its rounding from
-    one of some `exact` or `wanted` ones are these."""
-    problem = course.problem
+    one of some `exact` ones are these."""
     entries = _with_ends(course)
     kinds = np.array([entry.kind for entry in entries])
     is_special = kinds != ""
-    points = [entry.point for entry in entries]
-    values = np.array([problem.values(point) for point in points])
-    for value in (*exact, *wanted):
-        near = np.abs(values - value) <= SAME_VALUE * abs(value)
-        values[near & ~is_special[:, None]] = value
-    period = np.array([point.orbit.period for point in points])
-    every = np.array([multipliers(point.jacobian) for point in points])
-    growth = np.array(
-        [growth_rate(each[0], time) for each, time in zip(every, period, strict=True)]
-    )
-    states = [problem.state(point.z) for point in points]
-    both: dict[str, Any] = dict(zip(problem.names, values.T, strict=True))
-    both |= {
-        "growth_rate": growth,
-        "period": period,
-        "stick_fraction": np.array([point.orbit.stick_time for point in points]) / period,
-    }
-    both |= {name: np.array([getattr(state, name) for state in states]) for name in STATE}
-    of_cycles = {
-        "largest_multiplier": np.abs(every).max(axis=1, initial=0.0),
-        "stable": growth < 0,
-        "multipliers": every,
-        "separations": np.array([point.orbit.counts.separations for point in points]),
-        "releases": np.array([point.orbit.counts.releases for point in points]),
-        "diameters": np.array([problem.leading_diameters(point) for point in points]),
-    }
-    neutral = np.abs(growth * period) <= NEUTRAL
+    columns = {x: np.array([entry.kept[x] for entry in entries]) for x in entries[0].kept}
+    [name] = problem.names
+    for value in exact:
+        near = np.abs(columns[name] - value) <= SAME_VALUE * abs(value)
+        columns[name][near & ~is_special] = value
+    growth = columns["growth_rate"]
+    neutral = (np.abs(growth * columns["period"]) <= NEUTRAL) & np.isin(kinds, CHANGES)
+    growth[neutral] = 0.0
+    both = {x: column for x, column in columns.items() if x not in OF_CYCLES}
     of_special = {
         "kind": kinds,
         "label": np.array([LABELS.get(kind, "") for kind in kinds]),
         "multiplier": np.array([entry.multiplier for entry in entries], dtype=complex),
         "after": np.maximum(np.cumsum(~is_special) - 1, 0),
-        "changes_stability": neutral & np.isin(kinds, CHANGES),
+        "changes_stability": neutral,
     }
-    data = xr.Dataset(
-        _variables("point", "", both | of_cycles, ~is_special)
-        | _variables("special", "special_", both | of_special, is_special),
-        attrs={
-            "ended": "; ".join(dict.fromkeys(filter(None, (course.first, course.last)))),
-            "parameters": problem.base.canonical_json,
-            "free_parameters": ", ".join(problem.names),
-            "versions": versions_text(),
-        },
-    )
-    along = values[~is_special, 0]
-    slack = ROUNDING * problem.scales[0]
-    missed = [value for value in wanted if np.abs(along - value).min() > slack]
-    if missed:
-        data.attrs["not_reached"] = ", ".join(f"{value:.15g}" for value in missed)
-    for dim in ("point", "special"):
-        number = np.arange(data.sizes[dim])
-        data[dim] = xr.Variable(dim, number, OF_RESULTS["Branch"][dim].attributes)
-    return Branch(data.set_coords([*problem.names, *(f"special_{name}" for name in problem.names)]))
+    attrs = {
+        "ended": "; ".join(dict.fromkeys(filter(None, (course.first, course.last)))),
+        "parameters": problem.base.canonical_json,
+        "free_parameters": name,
+        "versions": versions_text(),
+    }
+    variables = _variables("point", "", columns, ~is_special)
+    variables |= _variables("special", "special_", both | of_special, is_special)
+    return Branch(xr.Dataset(variables, attrs=attrs).set_coords([name, f"special_{name}"]))
 
 
 def _with_ends(course: Course) -> list[Entry]:
     """The points and special points of a course, its ends among the latter; one that closes, stops or
     begins at a special point has that instead."""
     entries = list(course.entries)
-    first, last = entries[0], entries[-1]
+    first = entries[0]
     if course.last not in (CLOSED, STOPPED):
-        entries.append(_end_of(course.last, last))
+        entries.append(_end_of(course.last, entries[-1]))
     if not (first.kind or course.last == CLOSED or course.first == STOPPED):
         entries.insert(1, _end_of(course.first, first))
     return entries
@@ -479,16 +416,16 @@ def _with_ends(course: Course) -> list[Entry]:
 def _end_of(end: str, entry: Entry) -> Entry:
     """The end of a branch as a special point; without a reason it is the start."""
     kind = end if end in SHOWN_ENDS else "end"
-    return Entry(entry.point, kind, leading(entry.point))
+    return entry._replace(kind=kind, multiplier=leading(entry.point))
 
 
 def _variables(
     dim: str, begin: str, columns: Mapping[str, Array], rows: Mask
 ) -> dict[str, xr.Variable]:
-    """Some rows of columns along a dimension as variables, whose names have a beginning; a second dimension
-    is that of the multipliers or modes."""
+    """Some rows of columns along a dimension as variables, whose names have a beginning, and their numbers
+    along it; a second dimension is that of the multipliers or modes."""
     known = OF_RESULTS["Branch"]
-    variables = {}
+    variables = {dim: xr.Variable(dim, np.arange(rows.sum()), known[dim].attributes)}
     for name, column in columns.items():
         second = "mode" if name in COORDINATES else "multiplier"
         attrs = known[name].attributes if name in known else attributes_of_number(name)
@@ -499,22 +436,20 @@ def _variables(
 # ---- The function
 
 
-CYCLE = StepControl()
-
-
+@checked
 @compiling()
 def continue_cycle(  # noqa: PLR0913
     case: Parameters,
     name: str,
-    bounds: tuple[Quantity, Quantity],
+    bounds: Bounds,
     *,
-    direction: int = 0,
-    guess: State | None = None,
-    releases: int = 1,
-    tol: float = 1e-12,
-    steps: StepControl = CYCLE,
-    values: Sequence[Quantity] = (),
-    stop_at: str | Sequence[str] | None = None,
+    direction: Literal[-1, 0, 1] = 0,
+    guess: InstanceOf[State] | None = None,
+    releases: Count = 1,
+    tol: CycleTolerance = 1e-12,
+    steps: StepControl = StepControl(),  # noqa: B008
+    values: Annotated[tuple[Finite, ...], Unit(of="name")] = (),
+    stop_at: str | list[str] | None = None,
     kind: str = STICK_SLIP,
     progress: bool = False,
 ) -> Branch:
@@ -534,8 +469,7 @@ def continue_cycle(  # noqa: PLR0913
     guess, releases, tol : as in `floquet`; with the state of a period doubling and twice its releases, the branch that
         begins there is followed, one way
     steps : length and number of the steps
-    values : of the parameter, within the bounds; the branch has a cycle at exactly each of them, as often as it passes;
-        those that it never passes are its `not_reached`
+    values : of the parameter, within the bounds; the branch has a cycle at exactly each of them, as often as it passes
     stop_at : "fold", "period_doubling" or "neimark_sacker", or the label "LP", "PD" or "TR", to end at the first such
         point, in each direction; several of them to end at the first of any
     kind : "stick_slip"; or "slipping" for the cycle of `floquet(case, kind="slipping")`, which slips all the time, from
@@ -560,30 +494,25 @@ def continue_cycle(  # noqa: PLR0913
     >>> branch = dm.continue_cycle(dm.Parameters(N=385, Omega=14.9), "Omega", (14.8, 15.2), values=[15.0])
     >>> branch
     Branch(... cycles, Omega from 14.8 to 15.09... rad/s, 1 fold; ended: bound)
-    >>> print(f"{branch.folds[0, 0]:.6f} rad/s")
+    >>> print(f"{branch.folds[0]:.6f} rad/s")
     15.094912 rad/s
     >>> branch.growth_rate[branch.at(15.0)].round(4).tolist()
     [-0.1055, 0.5751]
     """
-    ways = is_number(direction) and direction in (-1, 0, 1)
+    raise_faults(guess_faults(guess, releases, kind))
+    require_interval(case, name, bounds)
+    require_within(case, name, bounds, values)
     stops = stop_kinds(stop_at)
-    wrong = violations(
-        (isinstance(steps, StepControl), "steps", steps, "must be StepControl"),
-        (ways, "direction", direction, "must be -1, 0 or 1"),
-        (stops is not None, "stop_at", stop_at, STOPS),
-        (isinstance(progress, bool), "progress", progress, "must be True or False"),
-    )
-    wrong += limits_faults("tol", tol, CYCLE_TOLERANCES) + guess_faults(guess, releases, kind)
-    span, wanted = read_values(case, name, bounds, values, wrong)
-    scale = steps.scale or parameter_scale(case, name, max(map(abs, span)))
-    problem, cycle = first_cycle(case, name, scale, float(tol), guess, releases, kind)
+    farthest = max(map(abs, bounds))
+    problem, start = first_cycle(case, name, farthest, tol, guess, releases, kind)
     with progress_bar("continue_cycle", None, progress) as bar:
 
-        def tell(point: CurvePoint) -> None:
-            bar.describe(f"continue_cycle at {problem.words(point)}")
+        def keep(point: CurvePoint) -> dict[str, Any]:
+            value = problem.values(point.z)[0]
+            bar.describe(f"continue_cycle at {value_with_unit(name, value)}")
             bar.advance()
+            return row_of(problem, point)
 
-        search = Search(problem, steps, span, stops or frozenset(), tell)
-        course = search.follow(problem.start(cycle), int(direction))
-        course = search.with_values(course, wanted)
-    return branch_of(course, (*span, case.numbers[name]), wanted)
+        tracer = Tracer(problem, steps, bounds, stops, keep)
+        course = tracer.with_values(tracer.follow(start, direction), values)
+    return branch_of(problem, course, (*bounds, case.numbers[name], *values))

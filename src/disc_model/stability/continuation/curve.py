@@ -16,16 +16,16 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Annotated, NamedTuple, Protocol, Self
+from typing import Annotated, NamedTuple, Protocol
 
 import numpy as np
-from pydantic import Field, model_validator
+from pydantic import Field
 from scipy.optimize import linear_sum_assignment
 
 from disc_model.arrays import Array, ComplexArray, Indices, Mask
-from disc_model.errors import DiscModelError, require
+from disc_model.errors import DiscModelError
 from disc_model.stability.return_map import Orbit, newton_step, rounding
-from disc_model.units import Count, Finite, Positive, Strict
+from disc_model.units import Count, Positive, Strict
 
 MOST_CORRECTIONS = 14  # of Newton's method with Broyden's updates, which takes 3 to 5
 MOST_DERIVATIVES = 4  # computed anew in a correction that is slow
@@ -39,9 +39,13 @@ DEFECT = 0.02
 # the last correction of a point whose residual is limited by rounding; a residual that is as small
 # but no zero, as beside a narrow fold, leads to corrections a hundred times as large
 UNCERTAIN = 1e-7
+MOST_POINTS = "max_points"  # why a curve ends that has as many points as it may
 DIVERGES = "Newton's method does not converge"
 FARTHEST_PREDICTION = 2  # length of a step that is predicted from the former one, over that
 FARTHEST = 0.5  # of a single corrector's way, relative to the step, before it is given up
+SHARPEST = 0.9  # cosine of the angle between successive tangents, below which a step is shortened
+EASY = 0.99  # the same, above which the next step is longer
+GROWTH = 1.5  # factor of such a step
 STRONGLY_DAMPED = 0.5  # modulus below which a multiplier causes neither a resonance nor a loss
 
 
@@ -59,11 +63,7 @@ class StepControl(Strict):
     ----------
     step, longest, shortest : arclength of the first, the longest and the shortest step
     max_points : largest number of points in each direction
-    scale : value of the parameter that counts as one in the arclength; by default its own, or a tenth of the larger
-        bound if that is more. For one parameter only
-    growth, easy, sharpest : factor by which a step grows if the cosine of the angle between successive tangents exceeds
-        `easy`; below `sharpest` the step is shortened
-    beyond : whether a branch in one parameter ends at the first point beyond a bound, instead of at the bound
+    beyond : whether a branch ends at the first point beyond a bound, instead of at the bound
 
     Examples
     --------
@@ -77,19 +77,7 @@ class StepControl(Strict):
     longest: Positive = 0.1
     shortest: Positive = 1e-7
     max_points: Annotated[Count, Field(ge=1)] = 2000
-    scale: Positive | None = None
-    growth: Finite = 1.5
-    easy: Finite = 0.99
-    sharpest: Finite = 0.9
     beyond: bool = False
-
-    @model_validator(mode="after")
-    def _ordered(self) -> Self:
-        """Check that a step can be halved."""
-        first = min(self.step, self.longest)
-        rule = f"must be at most step and longest, {first:g}"
-        require((self.shortest <= first, "shortest", self.shortest, rule))
-        return self
 
 
 class Evaluation(NamedTuple):
@@ -153,11 +141,6 @@ class CurvePoint:
     def reversed(self) -> CurvePoint:
         """The same point of a curve that is followed in the other sense."""
         return replace(self, tangent=-self.tangent, orientation=-self.orientation)
-
-    def turned(self, direction: int) -> CurvePoint:
-        """The same point of a curve that is followed in the direction of the tangent (1), or against
-        it (-1)."""
-        return self if direction > 0 else self.reversed()
 
 
 def solve(
@@ -253,7 +236,10 @@ def interpolate(before: CurvePoint, after: CurvePoint, share: float) -> Guess:
 
 
 def check_step(
-    before: CurvePoint, after: CurvePoint, sharpest: float, largest_defect: float = DEFECT
+    before: CurvePoint,
+    after: CurvePoint,
+    largest_defect: float = DEFECT,
+    sharpest: float = SHARPEST,
 ) -> None:
     """Raise `Rejected` unless two points are neighbours on a smooth curve: the tangents enclose an
     angle of a cosine of at least `sharpest`, and the chord differs from their mean by no more than
@@ -267,18 +253,32 @@ def check_step(
         raise Rejected("the curve bends within the step")
 
 
+def passes(before: CurvePoint, after: CurvePoint, known: CurvePoint, near: float) -> float | None:
+    """The share of the way between two neighbours at which the curve comes within a distance,
+    `near` of their chord, of a known point; None if it does not."""
+    chord = after.z - before.z
+    length = float(np.linalg.norm(chord))
+    share = float((known.z - before.z) @ chord) / length**2
+    if not 0 < share <= 1:
+        return None
+    apart = float(np.linalg.norm(interpolate(before, after, share).z - known.z))
+    return share if apart <= near * length else None
+
+
 def follow_curve(
     start: CurvePoint,
     advance: Callable[[Sequence[CurvePoint], float], list[CurvePoint]],
     steps: StepControl,
-    watch: Callable[[list[CurvePoint]], bool],
-) -> tuple[list[CurvePoint], Rejected | None]:
-    """Points along a curve from `start` on, at most `max_points`.
+    watch: Callable[[list[CurvePoint]], str],
+    growth: float = GROWTH,
+    easy: float = EASY,
+) -> tuple[list[CurvePoint], str | Rejected]:
+    """Points along a curve from `start` on, at most `max_points`, and why it ends.
 
     From the points so far, `advance` finds the next ones within an arclength, or raises `Rejected`;
-    the step is then halved. After each point, `watch` looks at all of them, may change the last,
-    and says whether it is the last of the curve. Returns the points, and the rejection if even the
-    shortest step ended in one.
+    the step is then halved, and the rejection is the end if the step becomes too short. After each
+    point, `watch` looks at all of them, may change the last, and says in a word why the curve ends
+    there, or "". A step grows where successive tangents enclose an angle of a cosine above `easy`.
     """
     points = [start]
     ds = min(steps.step, steps.longest)
@@ -292,11 +292,11 @@ def follow_curve(
             continue
         for point in ahead:
             points.append(point)
-            if watch(points):
-                return points, None
-        if float(points[-1].tangent @ points[-2].tangent) > steps.easy:
-            ds = min(steps.longest, steps.growth * ds)
-    return points, None
+            if end := watch(points):
+                return points, end
+        if float(points[-1].tangent @ points[-2].tangent) > easy:
+            ds = min(steps.longest, growth * ds)
+    return points, MOST_POINTS
 
 
 # ---- Multipliers along a curve
@@ -346,13 +346,12 @@ def follow_multipliers(before: Spectrum, after: Spectrum) -> Indices:
 
 class Turns(NamedTuple):
     """Those multipliers of one point of modulus above `STRONGLY_DAMPED` and positive imaginary
-    part, their angles, by which angle each turns up to another point, at most pi, and the distances
-    of their moduli from one at both."""
+    part: their angles, by which angle each turns up to another point, at most pi, and the distances
+    of their moduli from one at both, (2, n)."""
 
     angles: Array
     turns: Array
     damping: Array
-    later_damping: Array
 
 
 def turns_between(before: Spectrum, after: Spectrum) -> Turns:
@@ -363,14 +362,8 @@ def turns_between(before: Spectrum, after: Spectrum) -> Turns:
 def turns_of(multipliers: ComplexArray, successors: ComplexArray) -> Turns:
     """How multipliers turn, each beside the one that it becomes."""
     followed = are_slow(multipliers, successors) & (multipliers.imag > 0)
-    values = multipliers[followed]
-    later = successors[followed]
-    return Turns(
-        angles=np.angle(values),
-        turns=np.angle(later / values),
-        damping=np.abs(1 - np.abs(values)),
-        later_damping=np.abs(1 - np.abs(later)),
-    )
+    both = np.array([multipliers[followed], successors[followed]])
+    return Turns(np.angle(both[0]), np.angle(both[1] / both[0]), np.abs(1 - np.abs(both)))
 
 
 def are_slow(multipliers: ComplexArray, successors: ComplexArray) -> Mask:
@@ -387,23 +380,24 @@ def passings(between: Turns) -> list[Passing]:
     """
     first, second = np.triu_indices(len(between.angles))
     different = first != second
+    sign = np.repeat([1, -1], [len(first), different.sum()])
+    i = np.append(first, first[different])
+    j = np.append(second, second[different])
+    starts = (between.angles[i] + sign * between.angles[j]) / math.tau
+    changes = (between.turns[i] + sign * between.turns[j]) / math.tau
+    levels = np.maximum(np.floor(starts), np.floor(starts + changes))
     found = list[Passing]()
-    for sign, i, j in ((1, first, second), (-1, first[different], second[different])):
-        starts = (between.angles[i] + sign * between.angles[j]) / math.tau
-        changes = (between.turns[i] + sign * between.turns[j]) / math.tau
-        levels = np.maximum(np.floor(starts), np.floor(starts + changes))
-        for k in np.flatnonzero(np.floor(starts) != np.floor(starts + changes)):
-            distances = math.tau * np.abs(
-                [levels[k] - starts[k], levels[k] - starts[k] - changes[k]]
+    for k in np.flatnonzero(np.floor(starts) != np.floor(starts + changes)):
+        ahead = levels[k] - starts[k]
+        distances = math.tau * np.abs([ahead, ahead - changes[k]])
+        nearer = int(distances[1] < distances[0])
+        damping = between.damping[nearer]
+        found.append(
+            Passing(
+                share=float(ahead / changes[k]),
+                distance=float(distances[nearer]),
+                width=float(damping[i[k]] + damping[j[k]]),
+                forced=bool(i[k] == j[k] and levels[k] % 2 == 0),
             )
-            at_end = int(distances[1] < distances[0])
-            damping = (between.damping, between.later_damping)[at_end]
-            found.append(
-                Passing(
-                    share=float((levels[k] - starts[k]) / changes[k]),
-                    distance=float(distances[at_end]),
-                    width=float(damping[i[k]] + damping[j[k]]),
-                    forced=bool(i[k] == j[k] and levels[k] % 2 == 0),
-                )
-            )
+        )
     return sorted(found)

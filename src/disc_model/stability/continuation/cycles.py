@@ -15,9 +15,8 @@ resonance, and must lie where the step leads to expect it.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field
+from functools import cached_property, partial
 from itertools import pairwise
 from typing import Any, NamedTuple
 
@@ -25,8 +24,7 @@ import numpy as np
 from scipy.optimize import brentq
 from scipy.optimize import newton as root_by_secants
 
-from disc_model.arrays import Array
-from disc_model.data.variables import value_with_unit
+from disc_model.arrays import Array, ComplexArray
 from disc_model.errors import Fault, ModeError, ParameterError
 from disc_model.parameters import DEFAULTS, Parameters
 from disc_model.simulation.states import State
@@ -44,22 +42,14 @@ from disc_model.stability.continuation.curve import (
     follow_curve,
     follow_multipliers,
     interpolate,
+    passes,
     passings,
     predict,
     solve,
-    spectrum_of,
     turns_between,
 )
-from disc_model.stability.cycle import SLIPPING, STICK_SLIP, FloquetResult, find_cycle
-from disc_model.stability.return_map import (
-    ENDS,
-    PARAMETERS,
-    Counts,
-    Orbit,
-    ReturnMap,
-    newton,
-    newton_step,
-)
+from disc_model.stability.cycle import SLIPPING, find_cycle, multipliers
+from disc_model.stability.return_map import ENDS, PARAMETERS, Orbit, ReturnMap
 from disc_model.stability.slipping import SlippingMap, find_slipping_cycle
 
 # typical values of parameters whose value in Table 1 is missing or 0
@@ -103,20 +93,14 @@ CLOSED = "closed"
 STOPPED = "stopped"
 HOPF = "hopf"
 LIMIT = "limit"
-MOST_POINTS = "max_points"
 LOST = "lost"
 ON_CIRCLE = 1e-6  # largest difference of a critical multiplier's modulus from one
 SAME_POINT = 1e-7  # distance of two computations of one point of a branch, over the deflection
 BESIDE_HOPF = 1e-3  # distance from a Hopf point within which no other special point is listed
 SAME_VALUE = 1e-12  # relative difference of two values of a parameter that count as one
-BEYOND = (
-    1e-6,
-    1e-5,
-    1e-4,
-)  # arclengths beyond the last cycle, which is within the shortest step of a jump
-SAME_TIMES = (
-    5e-3  # change of a motion's period and stick there, over the period, without another event
-)
+# arclengths beyond the last cycle, which is within the shortest step of a jump
+BEYOND = (1e-6, 1e-5, 1e-4)
+SAME_TIMES = 5e-3  # change of period and stick there, over the period, without another event
 STEEPEST = 1e4  # leading multiplier beside a grazing release, towards which it grows without bounds
 
 # largest distance, over the deflection, of a cycle from itself half a period later that is looked at
@@ -147,135 +131,116 @@ def parameter_scale(p: Parameters, name: str, farthest: float = 0.0) -> float:
 class CycleProblem:
     """F of the cycles of a case, in the free parameters `names`.
 
-    Unknowns are z = (x / size, q / scales), with the norm of the static deflection as size. With an
-    `order` of events cycles may lose contact, and have as many releases in a period; `scale`
-    replaces a parameter's own. Points x of the section are in the coordinates of the case `base`;
-    those of another case differ from them where the disc's frequencies do.
+    Unknowns are z = (x / size, q / scales), with the norm of the static deflection as size. Cycles of
+    a given number of `releases` may lose contact; those of 0 have one release in contact. Points x of
+    the section are in the coordinates of the case `base`; those of another case differ from them
+    where the disc's frequencies do.
     """
 
     def __init__(
         self,
         base: Parameters,
-        names: tuple[str, ...],
-        scale: float | None,
+        names: Sequence[str],
+        scales: Sequence[float],
         tol: float,
-        order: Counts | None = None,
+        releases: int = 0,
         make_map: Callable[..., Any] | None = None,
     ) -> None:
         self.base = base
-        self.names = names
+        self.names = tuple(names)
+        self.scales = np.array(scales)
         self.tol = tol
-        self.order = order
+        self.releases = releases
         self.make_map = make_map or ReturnMap
         self.reference = self.make_map(base, tol)
         self.n = self.reference.size
         self.size = self.reference.deflection
-        self.scales = np.array([scale or parameter_scale(base, name) for name in names])
         self._differentiable = tuple(name for name in names if name in PARAMETERS)
         self._map: Any = None  # the map of the parameters last used
-        self._values: tuple[float, ...] = ()
+        self._values: list[float] = []
 
-    def values(self, point: CurvePoint) -> Array:
+    def values(self, z: Array) -> Array:
         """The free parameters at a point."""
-        return np.asarray(point.z[self.n :] * self.scales)
+        return np.asarray(z[self.n :] * self.scales)
 
     def case(self, z: Array) -> Parameters:
         """The case at a point; raises `ParameterError` where there is none."""
-        values = (z[self.n :] * self.scales).tolist()
-        return self.base.replace(**dict(zip(self.names, values, strict=True)))
-
-    def words(self, point: CurvePoint) -> str:
-        """The values of the free parameters at a point, such as "Omega = 15.0949 rad/s"."""
-        return ", ".join(map(value_with_unit, self.names, self.values(point).tolist()))
+        return self.base.replace(**dict(zip(self.names, self.values(z).tolist(), strict=True)))
 
     def map_at(self, z: Array) -> Any:
         """The return map of the case at a point."""
-        values = tuple(z[self.n :].tolist())
-        if self._map is None or values != self._values:
-            self._map = self._make_map(z)
+        values = z[self.n :].tolist()
+        if values != self._values:
+            try:
+                p = self.case(z)
+                if min(p.Omega, p.N, p.k_p) <= 0:
+                    raise Rejected("the drive, the preload or the in-plane spring vanishes")
+                patient = self.releases > 0
+                self._map = self.make_map(p, self.tol, self._differentiable, patient=patient)
+            except (ParameterError, ModeError) as fault:
+                raise Rejected(str(fault)) from None
             self._values = values
         return self._map
 
-    def _make_map(self, z: Array) -> Any:
-        try:
-            p = self.case(z)
-            missing = min(p.Omega, p.N, p.k_p) <= 0
-            if missing:
-                raise Rejected("the drive, the preload or the in-plane spring vanishes")
-            patient = self.order is not None
-            return self.make_map(p, self.tol, self._differentiable, patient=patient)
-        except (ParameterError, ModeError) as fault:
-            raise Rejected(str(fault)) from None
+    def turn(self, z: Array) -> Array:
+        """Factors from the coordinates of the map at z to those of the case `base`."""
+        return np.asarray(self.reference.scale / self.map_at(z).scale)
 
     def section_point(self, z: Array) -> Array:
         """The point of the section, in the coordinates of the map at z."""
-        return np.asarray(z[: self.n] * self.size / self._turn(self.map_at(z)))
+        return np.asarray(z[: self.n] * self.size / self.turn(z))
 
     def state(self, z: Array) -> State:
         """The state of the point on the section."""
         return self.map_at(z).state(self.section_point(z))
 
-    def _turn(self, section_map: Any) -> Array:
-        """Factors from the coordinates of a map to those of the reference."""
-        return self.reference.scale / section_map.scale
+    def follow(self, z: Array, *, tangent: bool) -> Orbit:
+        """The motion from a point to its return, whatever its end."""
+        x = self.section_point(z)
+        releases = max(self.releases, 1)
+        separate = self.releases > 0
+        return self.map_at(z).evaluate(x, releases=releases, tangent=tangent, may_separate=separate)
 
-    def follow(self, z: Array, *, tangent: bool, releases: int | None = None) -> Orbit:
-        """The motion from a point to its return, or to another number of releases, whatever its
-        end."""
-        if releases is None:
-            releases = self.order.releases if self.order else 1
-        return self.map_at(z).evaluate(
-            self.section_point(z),
-            releases=releases,
-            tangent=tangent,
-            may_separate=self.order is not None,
-        )
-
-    def _return(
-        self, z: Array, *, tangent: bool, releases: int | None = None
-    ) -> tuple[Orbit, Array]:
-        """The motion from a point to its return, or to another number of releases, and F."""
-        orbit = self.follow(z, tangent=tangent, releases=releases)
+    def _return(self, z: Array, *, tangent: bool) -> tuple[Orbit, Array]:
+        """The motion from a point to its return, and F."""
+        orbit = self.follow(z, tangent=tangent)
         if not orbit.returned:
             raise Rejected(ENDS[orbit.outcome])
-        return orbit, (orbit.end - orbit.start) * self._turn(self.map_at(z)) / self.size
+        return orbit, (orbit.end - orbit.start) * self.turn(z) / self.size
 
-    def residual(self, z: Array, releases: int | None = None) -> Array:
-        """F at z, of cycles with another number of releases if there is one."""
-        return self._return(z, tangent=False, releases=releases)[1]
+    def residual(self, z: Array) -> Array:
+        """F at z."""
+        return self._return(z, tangent=False)[1]
 
-    def evaluate(self, z: Array, releases: int | None = None) -> Evaluation:
-        """F at z, with its derivatives, of cycles with another number of releases if there is
-        one."""
-        orbit, residual = self._return(z, tangent=True, releases=releases)
-        turn = self._turn(self.map_at(z))
+    def evaluate(self, z: Array) -> Evaluation:
+        """F at z, with its derivatives."""
+        orbit, residual = self._return(z, tangent=True)
+        turn = self.turn(z)
         jacobian = orbit.jacobian * turn[:, None] / turn[None, :]
-        by_parameters = np.zeros((self.n, len(self.names)))
-        column = 0
-        for i, name in enumerate(self.names):
-            if name in self._differentiable:
-                by_parameters[:, i] = orbit.by[:, column] * turn / self.size * self.scales[i]
-                column += 1
-            else:
-                by_parameters[:, i] = self._difference(z, residual, i, releases)
-        by = np.hstack([jacobian - np.eye(self.n), by_parameters])
-        if not (np.all(np.isfinite(by)) and np.all(np.isfinite(residual))):
+        known = dict(zip(self._differentiable, orbit.by.T, strict=True))
+        changes = [
+            known[name] * turn / self.size * self.scales[i]
+            if name in known
+            else self._difference(z, residual, i)
+            for i, name in enumerate(self.names)
+        ]
+        by = np.column_stack([jacobian - np.eye(self.n), *changes])
+        if not np.isfinite([*by.T, residual]).all():
             raise Rejected("the variational equations are singular: a switch is grazed")
         return Evaluation(residual, by, orbit, jacobian)
 
-    def _difference(self, z: Array, here: Array, i: int, releases: int | None) -> Array:
+    def _difference(self, z: Array, here: Array, i: int) -> Array:
         """Derivative of F, which is `here` at z, by the i-th scaled parameter, by a difference of
         orbits: on both sides of z, or on one at a limit of the parameter, such as 0."""
         move = np.zeros(len(z))
         move[self.n + i] = DIFFERENCE
         sides = [side for side in (1, -1) if self._is_case(z + side * move)]
         if len(sides) == 2:
-            rise = self.residual(z + move, releases) - self.residual(z - move, releases)
-            return np.asarray(rise / (2 * DIFFERENCE))
-        side = sides[0]
-        near = self.residual(z + side * move, releases)
-        far = self.residual(z + 2 * side * move, releases)
-        return np.asarray(side * (4 * near - 3 * here - far) / (2 * DIFFERENCE))
+            return (self.residual(z + move) - self.residual(z - move)) / (2 * DIFFERENCE)
+        [side] = sides
+        near = self.residual(z + side * move)
+        far = self.residual(z + 2 * side * move)
+        return side * (4 * near - 3 * here - far) / (2 * DIFFERENCE)
 
     def _is_case(self, z: Array) -> bool:
         """Whether the parameters of z are those of a case."""
@@ -290,54 +255,60 @@ class CycleProblem:
         values = np.array([self.base.numbers[name] for name in self.names])
         return np.concatenate([x / self.size, values / self.scales])
 
-    def place_of(self, cycle: FloquetResult) -> Array:
-        """z of a cycle of the case `base`; raises `ParameterError` if it cannot be followed."""
-        if cycle.state is None or (cycle.releases > 1 and not self.order):
-            rule = f"must have a cycle, but the search ended with {cycle.message}"
-            fault = Fault(("case",), "", f"{rule}; {self._another_start}")
-            if self.order:
-                fault = Fault(("guess",), "", f"must lie near a cycle, but {cycle.message}")
-            raise ParameterError(fault)
-        return self.place(self.reference.point(cycle.state))
-
-    @property
-    def _another_start(self) -> str:
-        """What to do where a case has no cycle to start from."""
-        return f"start from another value of {' or '.join(self.names)}, or give a guess"
-
-    def moved_to(self, z: Array, x: Array) -> Array:
-        """z at the point x of the section, in the coordinates of the map at z."""
-        return np.concatenate([x * self._turn(self.map_at(z)) / self.size, z[self.n :]])
-
-    def start(self, cycle: FloquetResult) -> CurvePoint:
-        """A cycle of the case `base` as a point of the curve in one parameter, which rises along the
-        tangent; raises `ParameterError` if it cannot be followed."""
-        z = self.place_of(cycle)
-        rising = parameter_row(len(z), 1.0)
-        try:
-            found = self.evaluate(z)
-        except Rejected as lost:
-            rule = f"must have a cycle that can be followed, but at its state {lost}"
-            fault = Fault(("case",), "", f"{rule}; {self._another_start}")
-            raise ParameterError(fault) from None
-        left = np.append(found.residual, 0.0)
-        return curve_point(z - newton_step(np.vstack([found.by, rising]), left), found, rising)
-
     def leading_diameters(self, point: CurvePoint) -> int:
         """Nodal diameters of the modes with most energy in the leading multiplier's eigenvector; -1
         on a rigid disc."""
-        spectrum = point.spectrum
         diameters = self.reference.diameters
         if not len(diameters):
             return -1
-        leading = int(np.argmax(np.abs(spectrum.values)))
-        energy = np.abs(spectrum.right[: len(diameters), leading]) ** 2
+        largest = int(np.argmax(np.abs(point.spectrum.values)))
+        energy = np.abs(point.spectrum.right[: len(diameters), largest]) ** 2
         return int(np.argmax(np.bincount(diameters, energy)))
 
+    @cached_property
+    def half(self) -> CycleProblem | None:
+        """The problem of cycles of half as many releases; None if these are no whole number."""
+        if self.releases == 0 or self.releases % 2:
+            return None
+        releases = self.releases // 2
+        return CycleProblem(self.base, self.names, self.scales.tolist(), self.tol, releases)
 
-def growth_rate(multiplier: complex, period: float) -> float:
-    """Growth rate of a multiplier, 1/s."""
-    return math.log(abs(multiplier)) / period if multiplier else -math.inf
+
+def first_cycle(
+    p: Parameters,
+    name: str,
+    farthest: float,
+    tol: float,
+    guess: State | None = None,
+    releases: int = 1,
+    kind: str = "",
+) -> tuple[CycleProblem, CurvePoint]:
+    """The problem of the cycles of a kind in a free parameter up to its `farthest` value, and the cycle
+    of the case `p`, from which they are followed: a point of the curve in one parameter, which rises
+    along the tangent. Other arguments are those of `disc_model.floquet`.
+
+    Raises `ParameterError` if there is no cycle, or `Rejected` if it cannot be followed.
+    """
+    slips = kind == SLIPPING
+    cycle = find_slipping_cycle(p, tol, guess) if slips else find_cycle(p, tol, guess, releases)
+    may_separate = guess is not None and not slips
+    if cycle.state is None or (cycle.releases > 1 and not may_separate):
+        hint = f"start from another value of {name}, or give another guess"
+        rule = f"must have a cycle, but the search ended with {cycle.message}; {hint}"
+        raise ParameterError(Fault(("guess" if may_separate else "case",), "", rule))
+    order = cycle.releases if may_separate else 0
+    section = SlippingMap if slips else None
+    problem = CycleProblem(p, [name], [parameter_scale(p, name, farthest)], tol, order, section)
+    z = problem.place(problem.reference.point(cycle.state))
+    return problem, curve_point(*cycle_at_value(problem, z), parameter_row(len(z), 1.0))
+
+
+def cycle_at_value(problem: CycleProblem, z: Array) -> tuple[Array, Evaluation]:
+    """The cycle near a point, at its value of the one free parameter; raises `Rejected` if there is
+    none."""
+    row = parameter_row(len(z), 1.0)
+    matrix = np.vstack([problem.evaluate(z).by, row])
+    return solve(problem, z, row[None, :], matrix)
 
 
 def leading(point: CurvePoint) -> complex:
@@ -346,28 +317,176 @@ def leading(point: CurvePoint) -> complex:
     return complex(values[np.argmax(np.abs(values))]) if values.size else 0j
 
 
-def nearest(point: CurvePoint, value: complex) -> complex:
-    """The multiplier nearest to a value."""
-    values = point.spectrum.values
-    return complex(values[np.argmin(np.abs(values - value))])
+def nearest(values: ComplexArray, wanted: complex) -> complex:
+    """The one of some values that is nearest to a wanted one."""
+    return complex(values[np.argmin(np.abs(values - wanted))])
 
 
-# ---- Steps
+def parameter_row(width: int, sense: float) -> Array:
+    """The unit vector of the parameter, which is the last of `width` entries, with the sign of
+    `sense`."""
+    row = np.zeros(width)
+    row[-1] = 1.0 if sense >= 0 else -1.0
+    return row
 
 
-class BranchTracer:
-    """Steps along the curve of a `CycleProblem` in one parameter, which end at the scaled bounds
-    `low` and `high` of the parameter where they would pass them."""
+def margin(value: float) -> float:
+    """Largest difference of scaled values that count as equal."""
+    return SAME_VALUE * max(1.0, abs(value))
+
+
+# ---- Points along a branch
+
+
+class Entry(NamedTuple):
+    """A point along a branch or, if it has a kind, a special one between two of these, with its
+    critical multiplier; and what is kept of it."""
+
+    point: CurvePoint
+    kind: str = ""
+    multiplier: complex = 0j
+    kept: Any = None
+
+
+class Course(NamedTuple):
+    """The points of a branch, special ones between them, and why it ends, in a word: at its first
+    point, if it was followed both ways, and at its last."""
+
+    entries: list[Entry]
+    first: str
+    last: str
+
+
+class Tracer:
+    """The way of a branch of a problem in one parameter, between the bounds of a span, up to the first
+    special point of one of the kinds `stop_at` if there is one. It keeps of each point along the branch
+    what `keep` makes of it, while the map of its case is still at hand."""
 
     def __init__(
-        self, problem: CycleProblem, steps: StepControl, low: float = -np.inf, high: float = np.inf
+        self,
+        problem: CycleProblem,
+        steps: StepControl,
+        span: tuple[float, float],
+        stop_at: frozenset[str] = frozenset(),
+        keep: Callable[[CurvePoint], Any] = lambda _: None,
     ) -> None:
         self.problem = problem
         self.steps = steps
-        self.low = low
-        self.high = high
+        self.low, self.high = (bound / problem.scales[0] for bound in span)
+        self.stop_at = stop_at
+        self.keep = keep
 
-    def advance(self, points: Sequence[CurvePoint], ds: float) -> list[CurvePoint]:
+    def follow(self, start: CurvePoint, direction: int = 0) -> Course:
+        """The branch from a point on: both ways, or with rising (1) or falling (-1) values alone; one
+        way from a period doubling, at which the branch of twice the period begins."""
+        departure = leave_doubling(self.problem, start)
+        if departure is not None:
+            entries, last = self._one_way(departure)
+            doubling = self._entry(start, PERIOD_DOUBLING, 1.0 + 0j)
+            return Course([doubling, *entries], PERIOD_DOUBLING, last)
+        if direction:
+            entries, last = self._one_way(start if direction > 0 else start.reversed())
+            return Course(entries, "", last)
+        back, first = self._one_way(start.reversed())
+        if first == CLOSED:
+            return Course(back, "", first)
+        entries, last = self._one_way(start)
+        behind = [each._replace(point=each.point.reversed()) for each in reversed(back)]
+        return Course([*behind, *entries[1:]], first, last)
+
+    def _entry(self, point: CurvePoint, kind: str = "", multiplier: complex = 0j) -> Entry:
+        return Entry(point, kind, multiplier, self.keep(point))
+
+    def _one_way(self, start: CurvePoint) -> tuple[list[Entry], str]:
+        """The branch from a point along its tangent, and why it ends."""
+        entries = [self._entry(start)]
+        end = self._bound_at(start)
+        if not end:
+            watch = partial(self._take, entries)
+            points, why = follow_curve(start, self._advance, self.steps, watch)
+            end = _loss(self.problem, points[-1], why) if isinstance(why, Rejected) else why
+        if end == HOPF:
+            last = entries[-1].point.z
+            entries = [
+                each
+                for each in entries
+                if not each.kind or np.linalg.norm(each.point.z - last) > BESIDE_HOPF
+            ]
+        return entries, end
+
+    def _take(self, entries: list[Entry], points: list[CurvePoint]) -> str:
+        """Take the last of some points, with the special ones before it, as far as the branch goes;
+        the word for its end, if it is there."""
+        before, new = points[-2:]
+        end = ""
+        if len(points) > 3 and self._closes(before, new, points[0]):
+            new = points[0]
+            end = CLOSED
+        elif comes_to_doubling(self.problem, before, new):
+            doubling = locate_doubling(self.problem, before)
+            if doubling is not None:
+                entries.append(self._entry(doubling))
+            return PERIOD_DOUBLING
+        try:
+            found = special_between(self, before, new)
+        except Rejected:
+            return LOST
+        for point, kind, multiplier in found:
+            bound = min(max(point.value, self.low), self.high)
+            if kind == FOLD and point.value != bound and not self.steps.beyond:
+                at_bound = self._at_value(before, point, bound)
+                if at_bound is not None:
+                    entries.append(self._entry(at_bound))
+                return BOUND
+            entries.append(self._entry(point, kind, multiplier))
+            if kind in self.stop_at:
+                entries.append(entries[-1]._replace(kind=""))
+                return STOPPED
+        entries.append(self._entry(new))
+        return end or self._bound_at(new)
+
+    def _bound_at(self, point: CurvePoint) -> str:
+        """The end of the branch at a point that is at a bound, on the way out, or beyond it; else
+        ""."""
+        if self.steps.beyond:
+            leaves = not self.low <= point.value <= self.high
+        else:
+            below = point.slope < 0 and point.value <= self.low + margin(self.low)
+            leaves = below or (point.slope > 0 and point.value >= self.high - margin(self.high))
+        return BOUND if leaves else ""
+
+    def _closes(self, before: CurvePoint, after: CurvePoint, known: CurvePoint) -> bool:
+        """Whether the curve between two neighbours passes through a known point in its sense."""
+        share = passes(before, after, known, PEAK)
+        if share is None or float(known.tangent @ (after.z - before.z)) < 0:
+            return False
+        try:
+            there = self._between(before, after, share)
+        except Rejected:
+            return False
+        away = there.z - known.z
+        across = away - (away @ there.tangent) * there.tangent
+        return float(np.linalg.norm(across)) < SAME_POINT
+
+    def with_values(self, course: Course, wanted: Sequence[float]) -> Course:
+        """The course with a point at each of some values, in SI units, wherever it passes one."""
+        scaled = sorted(value / self.problem.scales[0] for value in wanted)
+        entries = course.entries[:1]
+        for (before, *_), after in pairwise(course.entries):
+            low, high = sorted([before.value, after.point.value])
+            passed = [x for x in scaled if low + margin(low) < x < high - margin(high)]
+            for value in passed if before.value < after.point.value else reversed(passed):
+                point = self._at_value(before, after.point, value)
+                if point is not None:
+                    entries.append(self._entry(point))
+            entries.append(after)
+            if after.kind and any(abs(after.point.value - x) <= margin(x) for x in scaled):
+                entries.append(after._replace(kind=""))
+        return course._replace(entries=entries)
+
+    # ---- Steps, which end at the bounds where they would pass them, and points between two neighbours
+
+    def _advance(self, points: Sequence[CurvePoint], ds: float) -> list[CurvePoint]:
         """The points of a step of arclength ds beyond the last of some, resonances within it
         included; raises `Rejected` if a shorter step is needed."""
         current = points[-1]
@@ -375,24 +494,45 @@ class BranchTracer:
         guess = predict(former, current, ds)
         row = _plane(current.tangent)
         value = float(guess.z[-1])
-        bound = min(max(value, self.low), self.high)
+        bound = value if self.steps.beyond else min(max(value, self.low), self.high)
         if bound != value:
             ds *= (bound - current.value) / (value - current.value)
             guess = predict(former, current, ds)
             guess.z[-1] = bound
             row = parameter_row(len(row), current.slope)
-        ahead = self._solve(guess, current, row, FARTHEST * ds)
+        ahead = self._solve(guess, current.tangent, row, FARTHEST * ds)
         if ds > CORNER and np.linalg.norm(ahead.z - guess.z) > DRIFT * ds:
             raise Rejected("the corrector moves far")
-        self._check(current, ahead)
+        _check(current, ahead)
         return [*self._resonances(current, ahead, DEEPEST), ahead]
 
-    def between(self, before: CurvePoint, after: CurvePoint, share: float) -> CurvePoint:
-        """The point of the curve at a share of the way between two neighbours."""
-        guess = interpolate(before, after, share)
-        return self._near(before, after, guess, _plane_between(before, after))
+    def _resonances(self, before: CurvePoint, after: CurvePoint, deepest: int) -> list[CurvePoint]:
+        """Points on the resonances between two neighbours; raises `Rejected` where one shows a peak
+        of the branch, or a forced one cannot be located."""
+        between = turns_between(before.spectrum, after.spectrum)
+        if np.abs(between.turns).max(initial=0.0) > FASTEST_TURN:
+            raise Rejected("a multiplier turns too fast")
+        unseen = _unseen(passings(between))
+        if not unseen:
+            return []
+        if deepest == 0:
+            if any(each.forced for each in unseen):
+                raise Rejected("a resonance cannot be located")
+            return []
+        expected = interpolate(before, after, unseen[0].share)
+        length = float(np.linalg.norm(after.z - before.z))
+        there = self._solve(expected, before.tangent, _plane(before.tangent), FARTHEST * length)
+        if np.linalg.norm(there.z - expected.z) > max(PEAK * length, SMALLEST_PEAK):
+            raise Rejected("the branch has a peak within the step")
+        _check(before, there)
+        _check(there, after)
+        return [
+            *self._resonances(before, there, deepest - 1),
+            there,
+            *self._resonances(there, after, deepest - 1),
+        ]
 
-    def at_value(self, before: CurvePoint, after: CurvePoint, value: float) -> CurvePoint | None:
+    def _at_value(self, before: CurvePoint, after: CurvePoint, value: float) -> CurvePoint | None:
         """The point of the curve between two neighbours with a given scaled value of the parameter,
         which lies between theirs; None if it cannot be computed."""
 
@@ -416,75 +556,44 @@ class BranchTracer:
 
         def value(share: float) -> float:
             if share not in known:
-                known[share] = self.between(before, after, share)
+                known[share] = self._between(before, after, share)
             return test(known[share])
 
         if value(0.0) * value(1.0) > 0:
             return None
         try:
             root = float(brentq(value, 0.0, 1.0, xtol=PRECISION, rtol=4 * np.finfo(float).eps))
-            return known.get(root) or self.between(before, after, root)
+            return known.get(root) or self._between(before, after, root)
         except Rejected:
             return None
 
+    def _between(self, before: CurvePoint, after: CurvePoint, share: float) -> CurvePoint:
+        """The point of the curve at a share of the way between two neighbours."""
+        guess = interpolate(before, after, share)
+        return self._near(before, after, guess, _plane_between(before, after))
+
     def _near(self, before: CurvePoint, after: CurvePoint, guess: Guess, row: Array) -> CurvePoint:
         chord = after.z - before.z
-        radius = max(FARTHEST * float(np.linalg.norm(chord)), 1e-6)
-        found = self._solve(guess, before, row, radius)
-        return found if float(found.tangent @ chord) >= 0 else found.reversed()
+        return self._solve(guess, chord, row, max(FARTHEST * float(np.linalg.norm(chord)), 1e-6))
 
-    def _solve(self, guess: Guess, nearby: CurvePoint, row: Array, radius: float) -> CurvePoint:
-        """The point of the curve in the plane through a guess, with the sense of a point nearby."""
+    def _solve(self, guess: Guess, along: Array, row: Array, radius: float) -> CurvePoint:
+        """The point of the curve in the plane through a guess, in the sense of a vector."""
         matrix = np.vstack([guess.by, row])
         z, found = solve(self.problem, guess.z, row[None, :], matrix, radius)
         point = curve_point(z, found, row)
-        same_sense = float(point.tangent @ nearby.tangent) >= 0
-        return point if same_sense else point.reversed()
-
-    def _check(self, before: CurvePoint, after: CurvePoint) -> None:
-        """Raise `Rejected` unless two points are neighbours on one part of the branch."""
-        if np.linalg.norm(after.z - before.z) <= CORNER:
-            check_step(before, after, self.steps.sharpest, FARTHEST)
-            return
-        check_step(before, after, self.steps.sharpest)
-        if after.orientation != before.orientation:
-            raise Rejected("the orientation of the curve changes")
-        if after.orbit.counts != before.orbit.counts:
-            raise Rejected("the order of events changes")
-
-    def _resonances(self, before: CurvePoint, after: CurvePoint, deepest: int) -> list[CurvePoint]:
-        """Points on the resonances between two neighbours; raises `Rejected` where one shows a peak
-        of the branch, or a forced one cannot be located."""
-        between = turns_between(before.spectrum, after.spectrum)
-        if np.abs(between.turns).max(initial=0.0) > FASTEST_TURN:
-            raise Rejected("a multiplier turns too fast")
-        unseen = _unseen(passings(between))
-        if not unseen:
-            return []
-        if deepest == 0:
-            if any(each.forced for each in unseen):
-                raise Rejected("a resonance cannot be located")
-            return []
-        expected = interpolate(before, after, unseen[0].share)
-        length = float(np.linalg.norm(after.z - before.z))
-        there = self._solve(expected, before, _plane(before.tangent), FARTHEST * length)
-        if np.linalg.norm(there.z - expected.z) > max(PEAK * length, SMALLEST_PEAK):
-            raise Rejected("the branch has a peak within the step")
-        self._check(before, there)
-        self._check(there, after)
-        return [
-            *self._resonances(before, there, deepest - 1),
-            there,
-            *self._resonances(there, after, deepest - 1),
-        ]
+        return point if float(point.tangent @ along) >= 0 else point.reversed()
 
 
-def parameter_row(width: int, sense: float) -> Array:
-    """The unit vector of the parameter, which is the last of `width` entries, with the sign of
-    `sense`."""
-    row = np.zeros(width)
-    row[-1] = 1.0 if sense >= 0 else -1.0
-    return row
+def _check(before: CurvePoint, after: CurvePoint) -> None:
+    """Raise `Rejected` unless two points are neighbours on one part of the branch."""
+    if np.linalg.norm(after.z - before.z) <= CORNER:
+        check_step(before, after, FARTHEST)
+        return
+    check_step(before, after)
+    if after.orientation != before.orientation:
+        raise Rejected("the orientation of the curve changes")
+    if after.orbit.counts != before.orbit.counts:
+        raise Rejected("the order of events changes")
 
 
 def _plane(tangent: Array) -> Array:
@@ -515,46 +624,70 @@ def _unseen(passed: list[Passing]) -> list[Passing]:
     return [each for each in hidden if each.forced or each.width <= widest]
 
 
+def _loss(problem: CycleProblem, last: CurvePoint, rejected: Rejected) -> str:
+    """Why a curve cannot be followed beyond a point at which even the shortest step was rejected.
+
+    Where the return map is discontinuous, no cycle continues the branch. A switch is grazed there: just
+    beyond, the motion has other events than the cycle, at other times, or no return.
+    """
+    if str(rejected) == "vanished":  # of cycles that slip all the time
+        return HOPF
+    cycle = last.orbit
+    for distance in BEYOND:
+        try:
+            motion = problem.follow(last.z + distance * last.tangent, tangent=False)
+        except Rejected:
+            return LIMIT
+        moved = abs(motion.period - cycle.period) + abs(motion.stick_time - cycle.stick_time)
+        same = motion.returned and motion.counts == cycle.counts
+        if not same or moved > SAME_TIMES * cycle.period:
+            return GRAZING
+    return GRAZING if abs(leading(last)) > STEEPEST else LOST
+
+
 # ---- Special points: a test function changes sign between two points, and its root is located
 
 
-class Entry(NamedTuple):
-    """A point along a branch or, if it has a kind, a special one between two of these, with its
-    critical multiplier."""
-
-    point: CurvePoint
-    kind: str = ""
-    multiplier: complex = 0j
+Special = tuple[CurvePoint, str, complex]
+"""A special point of a kind, with its critical multiplier."""
 
 
-def special_between(tracer: BranchTracer, before: CurvePoint, after: CurvePoint) -> list[Entry]:
+def special_between(tracer: Tracer, before: CurvePoint, after: CurvePoint) -> list[Special]:
     """The special points between two neighbours of a branch, in their order; raises `Rejected` if a
     fold between them cannot be computed."""
     found = list(_found_between(tracer, before, after))
-    return sorted(found, key=lambda each: float((each.point.z - before.z) @ before.tangent))
+    return sorted(found, key=lambda each: float((each[0].z - before.z) @ before.tangent))
 
 
-def _found_between(tracer: BranchTracer, before: CurvePoint, after: CurvePoint) -> Iterator[Entry]:
+def _found_between(tracer: Tracer, before: CurvePoint, after: CurvePoint) -> Iterator[Special]:
     """The special points between two neighbours."""
     if after.orbit.counts != before.orbit.counts:
-        yield Entry(before, GRAZING, leading(before))
+        yield before, GRAZING, leading(before)
         return
     knots = [before, after]
     if before.slope * after.slope < 0:
         fold = tracer.locate(before, after, lambda point: point.slope)
         if fold is None:
-            raise Rejected(f"a fold near {tracer.problem.words(before)} cannot be located")
+            raise Rejected("a fold cannot be located")
         knots.insert(1, fold)
-        yield Entry(fold, FOLD, 1.0 + 0j)
+        yield fold, FOLD, 1.0 + 0j
     elif before.orientation != after.orientation:
-        yield Entry(before, BRANCH_POINT, 1.0 + 0j)
+        yield before, BRANCH_POINT, 1.0 + 0j
     if _doubling_test(before) * _doubling_test(after) < 0:
         doubled = tracer.locate(before, after, _doubling_test)
-        if doubled is not None and abs(nearest(doubled, -1.0) + 1) < ON_CIRCLE:
-            yield Entry(doubled, PERIOD_DOUBLING, nearest(doubled, -1.0))
+        if doubled is not None:
+            critical = nearest(doubled.spectrum.values, -1.0)
+            if abs(critical + 1) < ON_CIRCLE:
+                yield doubled, PERIOD_DOUBLING, critical
     # a pair that crosses the circle before a fold often is two real multipliers at the fold
     for first, last in pairwise(knots):
-        yield from _neimark_sackers(tracer, first, last)
+        for pair in _crossing_pairs(first, last):
+            point = tracer.locate(first, last, partial(_excess, *pair))
+            if point is None:
+                continue
+            critical, _ = _followed(*pair, point)
+            if abs(abs(critical) - 1) < ON_CIRCLE and critical.imag != 0:
+                yield point, NEIMARK_SACKER, complex(critical.real, abs(critical.imag))
 
 
 def _doubling_test(point: CurvePoint) -> float:
@@ -564,59 +697,32 @@ def _doubling_test(point: CurvePoint) -> float:
     return float(np.prod(factors / np.maximum(np.abs(factors), 1.0)).real)
 
 
-def _neimark_sackers(
-    tracer: BranchTracer, before: CurvePoint, after: CurvePoint
-) -> Iterator[Entry]:
-    """The points between two neighbours where a pair of complex multipliers crosses the unit
-    circle."""
-    for follower in _crossing_pairs(before, after):
-        point = tracer.locate(before, after, follower.excess)
-        if point is None:
-            continue
-        critical = follower.multiplier(point)
-        if abs(abs(critical) - 1) < ON_CIRCLE and critical.imag != 0:
-            yield Entry(point, NEIMARK_SACKER, complex(critical.real, abs(critical.imag)))
-
-
-def _crossing_pairs(before: CurvePoint, after: CurvePoint) -> Iterator[_Follower]:
-    """The pairs that are complex at one of two neighbours at least, and may have crossed the unit
-    circle at the other."""
+def _crossing_pairs(before: CurvePoint, after: CurvePoint) -> Iterator[tuple[CurvePoint, int]]:
+    """The pairs of multipliers, each as a point and the number of one there, that are complex at one
+    of two neighbours at least, and may have crossed the unit circle at the other."""
     successors = follow_multipliers(before.spectrum, after.spectrum)
-    for i, multiplier in enumerate(before.spectrum.values):
-        j = int(successors[i])
-        successor = complex(after.spectrum.values[j])
-        crosses = (abs(multiplier) - 1) * (abs(successor) - 1) < 0
-        if multiplier.imag > 0 and (successor.imag == 0 or crosses):
-            yield _Follower(before, i)
-        elif multiplier.imag == 0 and successor.imag > 0:
-            yield _Follower(after, j)
+    first = before.spectrum.values
+    last = after.spectrum.values[successors]
+    crosses = (np.abs(first) - 1) * (np.abs(last) - 1) < 0
+    parts = (first.imag > 0) & ((last.imag == 0) | crosses)
+    meets = (first.imag == 0) & (last.imag > 0)
+    yield from ((before, int(i)) for i in np.flatnonzero(parts))
+    yield from ((after, int(j)) for j in successors[meets])
 
 
-class _Follower:
-    """The multiplier of a point that continues the i-th one of another, which is complex."""
+def _followed(start: CurvePoint, i: int, point: CurvePoint) -> tuple[complex, complex]:
+    """The multipliers of a point that continue the i-th one of another, of a positive imaginary part,
+    and the next, which is its conjugate."""
+    successors = follow_multipliers(start.spectrum, point.spectrum)[[i, i + 1]]
+    first, second = point.spectrum.values[successors].tolist()
+    return first, second
 
-    def __init__(self, start: CurvePoint, i: int) -> None:
-        self.start = start
-        self.i = i
-        values = start.spectrum.values
-        self.conjugate = int(np.argmin(np.abs(values - values[i].conjugate())))
 
-    def multiplier(self, point: CurvePoint) -> complex:
-        return self._successor(point, self.i)
-
-    def _successor(self, point: CurvePoint, i: int) -> complex:
-        """The multiplier of another point that continues the i-th one."""
-        j = follow_multipliers(self.start.spectrum, point.spectrum)[i]
-        return complex(point.spectrum.values[j])
-
-    def excess(self, point: CurvePoint) -> float:
-        """By how much its modulus exceeds one; the mean modulus of both multipliers where the pair
-        has become two real ones."""
-        followed = self.multiplier(point)
-        if followed.imag != 0:
-            return abs(followed) - 1
-        other = self._successor(point, self.conjugate)
-        return abs(followed * other) ** 0.5 - 1
+def _excess(start: CurvePoint, i: int, point: CurvePoint) -> float:
+    """By how much the modulus of the i-th multiplier exceeds one at a point; the mean modulus where
+    the pair has become two real ones."""
+    first, second = _followed(start, i, point)
+    return abs(first) - 1 if first.imag != 0 else abs(first * second) ** 0.5 - 1
 
 
 # ---- Period doublings seen from the cycle of twice the period. A cycle of an even number of
@@ -624,28 +730,14 @@ class _Follower:
 # ---- half a period later: a branch begins and ends there
 
 
-def releases_in_half(problem: CycleProblem) -> int:
-    """Releases in half a period of the problem's cycles; 0 if a period has an odd number."""
-    if problem.order is None or problem.order.releases % 2:
-        return 0
-    return problem.order.releases // 2
-
-
-def half_a_period_on(problem: CycleProblem, z: Array) -> Array:
-    """The way on the section from a cycle of an even number of releases to itself half a period
-    later, (n,), over the deflection; raises `Rejected` without a return."""
-    return problem.residual(z, releases_in_half(problem))
-
-
 def comes_to_doubling(problem: CycleProblem, before: CurvePoint, after: CurvePoint) -> bool:
     """Whether a branch of cycles of an even number of releases comes to a period doubling at the
     second of two neighbours: both are the same cycles, half a period apart, or the second one hardly
     differs from itself half a period later."""
-    if not releases_in_half(problem):
+    if problem.half is None:
         return False
     try:
-        first = half_a_period_on(problem, before.z)
-        second = half_a_period_on(problem, after.z)
+        first, second = (problem.half.residual(each.z) for each in (before, after))
     except Rejected:
         return False
     nearly = np.linalg.norm(second) < min(SAME_HALVES, float(np.linalg.norm(first)))
@@ -658,20 +750,18 @@ def locate_doubling(problem: CycleProblem, near: CurvePoint) -> CurvePoint | Non
 
     The shorter cycle is regular there, while F of the longer one has a double zero.
     """
+    half = problem.half
+    assert half is not None
     z = near.z.copy()
-    z[: problem.n] += half_a_period_on(problem, near.z) / 2
+    z[: problem.n] += half.residual(near.z) / 2
 
     def excess(value: float) -> float:
         """By how much the critical multiplier exceeds -1 at a scaled value of the parameter; `z` is
         then the shorter cycle there."""
         nonlocal z
         z[-1] = value
-        orbit = _shorter_cycle(problem, z)
-        if orbit is None:
-            raise Rejected("the shorter cycle is not found")
-        z = problem.moved_to(z, orbit.start)
-        values = spectrum_of(orbit.jacobian).values
-        return float(np.real(values[np.argmin(np.abs(values + 1))] + 1))
+        z, found = cycle_at_value(half, z)
+        return nearest(multipliers(found.jacobian), -1.0).real + 1
 
     try:
         value = root_by_secants(excess, near.value, x1=near.value + BESIDE, tol=ROUNDING)
@@ -684,37 +774,25 @@ def locate_doubling(problem: CycleProblem, near: CurvePoint) -> CurvePoint | Non
     return curve_point(z, found, near.tangent)
 
 
-def _shorter_cycle(problem: CycleProblem, z: Array) -> Orbit | None:
-    """The orbit of the shorter cycle near a point of the longer one's problem; None if it is not
-    found."""
-    start = problem.section_point(z)
-    half = releases_in_half(problem)
-    return newton(problem.map_at(z), start, releases=half, may_separate=True)
-
-
 def leave_doubling(problem: CycleProblem, start: CurvePoint) -> CurvePoint | None:
     """The first cycle of a branch that begins at a period doubling, near a cycle of half as many
     releases, with the tangent away from it; None if the start is no such cycle.
 
     Raises `ParameterError` if the start is one of half as many releases, and not at a doubling.
     """
-    half = releases_in_half(problem)
-    if not half or np.linalg.norm(half_a_period_on(problem, start.z)) > SAME_HALVES:
+    half = problem.half
+    if half is None or np.linalg.norm(half.residual(start.z)) > SAME_HALVES:
         return None
     # at a doubling the longer cycle is a double solution, which its search misses by some 1e-4
-    z = start.z
-    orbit = _shorter_cycle(problem, z)
-    if orbit is not None:
-        z = problem.moved_to(z, orbit.start)
-    shorter = problem.evaluate(z, half)
-    spectrum = spectrum_of(shorter.jacobian)
-    critical = int(np.argmin(np.abs(spectrum.values + 1)))
-    if abs(spectrum.values[critical] + 1) > NEAR_DOUBLING:
-        rule = f"must be {half}: the cycle at this state repeats after half as many"
-        raise ParameterError(Fault(("releases",), str(2 * half), rule))
+    z, shorter = cycle_at_value(half, start.z)
+    values, vectors = np.linalg.eig(shorter.jacobian)
+    critical = int(np.argmin(np.abs(values + 1)))
+    if abs(values[critical] + 1) > NEAR_DOUBLING:
+        rule = f"must be {half.releases}: the cycle at this state repeats after half as many"
+        raise ParameterError(Fault(("releases",), str(problem.releases), rule))
 
     # along the eigenvector, and across the branch of half the period, on which the plane has no cycle
-    away = np.append(np.real(spectrum.right[:, critical]), 0.0)
+    away = np.append(np.real(vectors[:, critical]), 0.0)
     away /= np.linalg.norm(away)
     along = np.linalg.svd(shorter.by)[2][-1]
     row = away - (away @ along) * along
@@ -727,221 +805,3 @@ def leave_doubling(problem: CycleProblem, start: CurvePoint) -> CurvePoint | Non
         except Rejected:
             continue
     raise ParameterError("no cycle of twice the period is near the period doubling")
-
-
-# ---- The course of a branch
-
-
-@dataclass
-class Course:
-    """The points of a branch, special ones between them, and why it ends, in a word: at its first
-    point, if it was followed both ways, and at its last."""
-
-    problem: CycleProblem
-    entries: list[Entry]
-    first: str
-    last: str
-
-    @property
-    def points(self) -> list[CurvePoint]:
-        return [entry.point for entry in self.entries if not entry.kind]
-
-
-@dataclass
-class Search:
-    """The search for a branch of a problem in one parameter, between the bounds of a span, up to
-    the first special point of one of the kinds `stop_at` if there is one. It tells of each point that is
-    found along the branch."""
-
-    problem: CycleProblem
-    steps: StepControl
-    span: tuple[float, float]
-    stop_at: frozenset[str] = frozenset()
-    tell: Callable[[CurvePoint], object] = field(default=lambda _: None)
-
-    def __post_init__(self) -> None:
-        self.low, self.high = (bound / self.problem.scales[0] for bound in self.span)
-        limits = (-np.inf, np.inf) if self.steps.beyond else (self.low, self.high)
-        self.tracer = BranchTracer(self.problem, self.steps, *limits)
-
-    def follow(self, start: CurvePoint, direction: int = 0) -> Course:
-        """The branch from a point on: both ways, or with rising (1) or falling (-1) values alone; one
-        way from a period doubling, at which the branch of twice the period begins."""
-        departure = leave_doubling(self.problem, start)
-        if departure is not None:
-            entries, last = self._one_way(departure)
-            doubling = Entry(start, PERIOD_DOUBLING, 1.0 + 0j)
-            return Course(self.problem, [doubling, *entries], PERIOD_DOUBLING, last)
-        if direction:
-            entries, last = self._one_way(start.turned(direction))
-            return Course(self.problem, entries, "", last)
-        back, first = self._one_way(start.reversed())
-        if first == CLOSED:
-            return Course(self.problem, back, "", first)
-        entries, last = self._one_way(start)
-        behind = [each._replace(point=each.point.reversed()) for each in reversed(back)]
-        return Course(self.problem, [*behind, *entries[1:]], first, last)
-
-    def _one_way(self, start: CurvePoint) -> tuple[list[Entry], str]:
-        """The branch from a point along its tangent, and why it ends."""
-        way = _Way(self, start)
-        end = self.bound_at(start)
-        if not end:
-            points, rejected = follow_curve(start, self.tracer.advance, self.steps, way)
-            end = way.end
-            if not end and rejected is not None:
-                end = _loss(self.problem, points[-1], rejected)
-        entries = way.entries
-        if end == HOPF:
-            last = entries[-1].point.z
-            far = [np.linalg.norm(each.point.z - last) > BESIDE_HOPF for each in entries]
-            entries = [
-                each for each, is_far in zip(entries, far, strict=True) if is_far or not each.kind
-            ]
-        return entries, end or MOST_POINTS
-
-    def bound_at(self, point: CurvePoint) -> str:
-        """The end of the branch at a point that is at a bound, on the way out, or beyond it; else
-        ""."""
-        if self.steps.beyond:
-            leaves = not self.low <= point.value <= self.high
-        else:
-            below = point.slope < 0 and point.value <= self.low + _margin(self.low)
-            leaves = below or (point.slope > 0 and point.value >= self.high - _margin(self.high))
-        return BOUND if leaves else ""
-
-    def closes(self, before: CurvePoint, after: CurvePoint, known: CurvePoint) -> bool:
-        """Whether the curve between two neighbours passes through a known point in its sense."""
-        chord = after.z - before.z
-        length = float(np.linalg.norm(chord))
-        share = float((known.z - before.z) @ chord) / length**2
-        if not 0 < share <= 1 or float(known.tangent @ chord) < 0:
-            return False
-        expected = interpolate(before, after, share)
-        if np.linalg.norm(expected.z - known.z) > PEAK * length:
-            return False
-        try:
-            there = self.tracer.between(before, after, share)
-        except Rejected:
-            return False
-        away = there.z - known.z
-        across = away - (away @ there.tangent) * there.tangent
-        return float(np.linalg.norm(across)) < SAME_POINT
-
-    def with_values(self, course: Course, wanted: Sequence[float]) -> Course:
-        """The course with a point at each of some values, in SI units, wherever it passes one."""
-        scaled = sorted(value / self.problem.scales[0] for value in wanted)
-        entries = course.entries[:1]
-        for before, after in pairwise(course.entries):
-            first, last = before.point, after.point
-            low, high = sorted([first.value, last.value])
-            passed = [x for x in scaled if low + _margin(low) < x < high - _margin(high)]
-            for value in passed if first.value < last.value else reversed(passed):
-                point = self.tracer.at_value(first, last, value)
-                if point is not None:
-                    entries.append(Entry(point))
-            entries.append(after)
-            if after.kind and any(abs(last.value - x) <= _margin(x) for x in scaled):
-                entries.append(Entry(last))
-        return Course(self.problem, entries, course.first, course.last)
-
-
-class _Way:
-    """The way of a branch from a point on: it takes each new point with the special ones before it,
-    tells whether that is the last one, and keeps why."""
-
-    def __init__(self, search: Search, start: CurvePoint) -> None:
-        self.search = search
-        self.entries = [Entry(start)]
-        self.end = ""
-
-    def __call__(self, points: list[CurvePoint]) -> bool:
-        search = self.search
-        before, new = points[-2:]
-        search.tell(new)
-        if len(points) > 3 and search.closes(before, new, points[0]):
-            new = points[0]
-            self.end = CLOSED
-        elif comes_to_doubling(search.problem, before, new):
-            self.end = PERIOD_DOUBLING
-            doubling = locate_doubling(search.problem, before)
-            if doubling is not None:
-                self.entries.append(Entry(doubling))
-            return True
-        try:
-            found = special_between(search.tracer, before, new)
-        except Rejected:
-            self.end = LOST
-            return True
-        self._take(before, found, new)
-        return bool(self.end)
-
-    def _take(self, before: CurvePoint, found: list[Entry], new: CurvePoint) -> None:
-        """Take the special points before a new one, and that one itself, as far as the branch goes."""
-        search = self.search
-        for each in found:
-            value = each.point.value
-            if each.kind == FOLD and not (
-                search.low <= value <= search.high or search.steps.beyond
-            ):
-                bound = min(max(value, search.low), search.high)
-                at_bound = search.tracer.at_value(before, each.point, bound)
-                if at_bound is not None:
-                    self.entries.append(Entry(at_bound))
-                self.end = BOUND
-                return
-            self.entries.append(each)
-            if each.kind in search.stop_at:
-                self.entries.append(Entry(each.point))
-                self.end = STOPPED
-                return
-        self.entries.append(Entry(new))
-        self.end = self.end or search.bound_at(new)
-
-
-def _margin(value: float) -> float:
-    """Largest difference of scaled values that count as equal."""
-    return SAME_VALUE * max(1.0, abs(value))
-
-
-def _loss(problem: CycleProblem, last: CurvePoint, rejected: Rejected) -> str:
-    """Why a curve cannot be followed beyond a point at which even the shortest step was rejected.
-
-    Where the return map is discontinuous, no cycle continues the branch. A switch is grazed there: just
-    beyond, the motion has other events than the cycle, at other times, or no return.
-    """
-    if str(rejected) == "vanished":  # of cycles that slip all the time
-        return HOPF
-    for distance in BEYOND:
-        try:
-            motion = problem.follow(last.z + distance * last.tangent, tangent=False)
-        except Rejected:
-            return LIMIT
-        same = motion.returned and motion.counts == last.orbit.counts
-        moved = abs(motion.period - last.orbit.period) + abs(
-            motion.stick_time - last.orbit.stick_time
-        )
-        if not same or moved > SAME_TIMES * last.orbit.period:
-            return GRAZING
-    return GRAZING if abs(leading(last)) > STEEPEST else LOST
-
-
-def first_cycle(
-    p: Parameters,
-    name: str,
-    scale: float | None,
-    tol: float,
-    guess: State | None = None,
-    releases: int = 1,
-    kind: str = STICK_SLIP,
-) -> tuple[CycleProblem, FloquetResult]:
-    """The problem of the cycles of a kind in a free parameter, and the cycle of the case `p` from which
-    they are followed; the other arguments are those of `CycleProblem` and `disc_model.floquet`."""
-    if kind == SLIPPING:
-        slipping = find_slipping_cycle(p, tol, guess)
-        return CycleProblem(p, (name,), scale, tol, make_map=SlippingMap), slipping
-    cycle = find_cycle(p, tol, guess, releases)
-    order = None
-    if guess is not None:
-        order = Counts(*(getattr(cycle, event) for event in Counts._fields))
-    return CycleProblem(p, (name,), scale, tol, order), cycle

@@ -211,7 +211,7 @@ def _transient_of(
 def _at_switches(case: Parameters, before: _Transient, samples: int, tol: float) -> Answer:
     """Samples at separations, or at releases where there are none."""
     from disc_model.simulation.api import simulate
-    from disc_model.stability.segments import shares
+    from disc_model.stability.segments import stick_share
 
     if not before.run.status.complete:
         return _ended_early(before.run, before.first, before.separations)
@@ -223,11 +223,11 @@ def _at_switches(case: Parameters, before: _Transient, samples: int, tol: float)
     if not record.status.complete:
         return _ended_early(record, first, separations)
     if reached.calm is not None:  # the run has its transient
-        stick = shares(record).stick
+        stick = stick_share(record)
     elif reached.near is not None:  # the attractor is known exactly
         stick = reached.near.cycle.stick_fraction
     else:
-        stick = shares(before.run).stick
+        stick = stick_share(before.run)
     events = record.events
     apart = bool((events["kind"] == "separation").any())
     taken = events[events["kind"] == ("separation" if apart else "stick_to_slip")]

@@ -173,9 +173,9 @@ def _stretches(branch: Branch, releases: int) -> list[dict[str, Any]]:
     after = np.array([special.after for special in branch.changes], dtype=int)
     separations = np.insert(branch.separations, after + 1, branch.separations[after])
     columns = {
-        "value": branch.refined("values")[:, 0],
+        "value": branch.refined(branch.name),
         "period": branch.refined("period"),
-        "growth_rate": branch.refined_growth_rate(),
+        "growth_rate": branch.refined("growth_rate"),
         "range": branch.refined("range"),
     }
     rows = []

@@ -11,15 +11,12 @@ import xarray as xr
 from pydantic import Field
 
 from disc_model.parameters import Parameters
-from disc_model.simulation.case import Window
 from disc_model.studies.quantity import STATIC, Starting, found, quantity
 from disc_model.units import Count, Seconds, Tolerance
 
 if TYPE_CHECKING:
     from disc_model.simulation.result import Result
     from disc_model.stability.locking import Lock
-
-RATE = 1e5  # Hz, of the contact force at releases: a stick lasts half a millisecond
 
 
 @quantity(
@@ -84,7 +81,7 @@ def locking(
     values |= {"status": "ok", "record_time": record}
     message = ""
     if lock is not None and multipliers:
-        proof = _proof(run, lock, tol)
+        proof = _proof(run, lock)
         if proof is None:
             values["motion"] = "undecided"
             message = f"no stable cycle of {lock.releases} releases was found at the motion"
@@ -126,33 +123,26 @@ def _read(run: Result) -> tuple[dict[str, Any], Lock | None]:
     return values, lock
 
 
-def _proof(run: Result, lock: Lock, tol: float) -> dict[str, Any] | None:
+def _proof(run: Result, lock: Lock) -> dict[str, Any] | None:
     """Columns of the stable cycle that a motion is on; None without one."""
-    from disc_model.simulation.api import simulate
     from disc_model.stability.cycle import multipliers
-    from disc_model.stability.locking import cycle_at, lock_on, releases_of, swing_multiplier
+    from disc_model.stability.locking import locked_cycle, releases_of
 
-    case = run.parameters
-    state = run.final_state
-    cycle = cycle_at(case, state, lock)
-    if cycle is None:
+    taken = releases_of(run)
+    assert taken is not None
+    found = locked_cycle(run.parameters, run.final_state, lock, taken)
+    if found is None:
         return None
+    cycle, lock = found
     known = multipliers(cycle.jacobian)
     if not abs(known[0]) < 1:
         return None
-    taken = releases_of(run)
-    assert taken is not None
-    lock = lock_on(cycle, taken, lock)
-    length = 1.1 * lock.period
-    windows = {"force": Window(last=length, rate=RATE)}
-    period = simulate(case, windows=windows, duration=length, tol=tol, initial_state=state)
     real = known[np.abs(known.imag) <= 1e-9 * np.abs(known)].real
     return {
         **_columns_of(lock),
         "leading_multiplier": float(abs(known[0])),
         "growth_rate": math.log(abs(known[0])) / lock.period,
         "real_multiplier": float(real.max(initial=-math.inf)),
-        "swing_multiplier": swing_multiplier(case, period, lock),
     }
 
 
