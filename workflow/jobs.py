@@ -58,14 +58,13 @@ def _compute_part(job: str, output: Path) -> xr.Dataset:
 
 def grid(output: str, failed: str, remarked: str, folder: str) -> None:
     """Merge the parts of a grid, and list points that failed and remarks on others."""
-    from disc_model.studies.run import merge, point_lines
+    from disc_model.studies.run import merge, told_points
 
     plan = read_plan()
     study = merge(plan["layout"], [*_parts(plan["jobs"], Path(folder))], plan["attrs"])
-    for path, lines in zip((failed, remarked), point_lines(study), strict=True):
-        Path(path).write_text(
-            "".join(f"{line}\n" for line in lines or ["no point"]), encoding="utf-8"
-        )
+    for path, points in zip((failed, remarked), told_points(study), strict=True):
+        text = "no point" if points.empty else points.to_string(index=False)
+        Path(path).write_text(f"{text}\n", encoding="utf-8")
     save_dataset(study, output)
 
 

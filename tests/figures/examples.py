@@ -16,7 +16,6 @@ import xarray as xr
 
 from disc_model import Parameters, Poincare, Window, run_study, simulate
 from disc_model.data.variables import WORDS, attributes
-from disc_model.studies.compute import stack
 from disc_model.studies.quantity import QUANTITIES, found, quantity_of
 from tests.figures.measured import Shown
 
@@ -90,8 +89,6 @@ def study_of(
         return found(quantity, cells, **along)
 
     def result(case: Parameters, **options: Any) -> xr.Dataset:
-        if known.plane:
-            return plane_of(at, axes, options["axes"])
         kicks = options["start"].perturbation if "start" in options else {}
         place = []
         for name, values in axes.items():
@@ -102,17 +99,6 @@ def study_of(
     with pytest.MonkeyPatch.context() as patch:
         patch.setitem(QUANTITIES, quantity, replace(known, function=result))
         return computed(quantity=quantity, axes=dict(axes), **{"options": {}, **raw})
-
-
-def plane_of(at: Any, axes: Mapping[str, Any], plane: Mapping[str, Any]) -> xr.Dataset:
-    """The results at the points of a plane, whose dimensions come first among the axes."""
-    first, second = (len(plane[name]) for name in axes if name in plane)
-    rest = [0] * (len(axes) - 2)
-    places = np.array([*np.ndindex(first, second)])
-    rows = [at(*place, *rest) for place in places.tolist()]
-    names = [name for name in axes if name in plane]
-    whole = stack(rows, places, dict(zip(names, (first, second), strict=True)))
-    return whole.assign_coords({name: [*axes[name]] for name in names})
 
 
 # ---- General kinds
@@ -521,7 +507,7 @@ def bifurcation() -> Example:
         "lyapunov_exponents",
         axes,
         numbers,
-        options={"count": 1, "duration": 9, "transient": 9},
+        options={"duration": 9, "transient": 9},
         base={"N": 385},
     )
     places = {"Fig. 13": 13.5}
@@ -554,7 +540,7 @@ def branches() -> Example:
         "sweep_settled": np.full((1, 2, 3), "settled"),
         "sliding_growth_rate": [[0.1, 0.1, 0.1]],
     }
-    options = {"bounds": [8, 14], "step": 3, "max_branches": 1, "max_points": 2, "dwell": 9}
+    options = {"bounds": [8, 14], "step": 3, "dwell": 9}
     own = {"direction": ["up", "down"], "sweep_value": [8.0, 11.0, 14.0]}
     study = study_of("branches", ONE, columns, own, options=options, base={"N": 385})
     return Example(
@@ -606,7 +592,7 @@ def starts() -> xr.Dataset:
         "critical_energy": CRITICAL,
         "critical_energy_sampled": [np.nan, 0.5, 0.01],
     }
-    options = {"energies": ENERGIES, "n_starts": 4, "horizon": 60, "max_attractors": 2}
+    options = {"energies": ENERGIES, "n_starts": 4, "horizon": 60}
     own = {"energy": ENERGIES, "attractor_class": CLASSES, "attractor": [1, 2]}
     axes = {"Omega": SPEEDS}
     return study_of("basins", axes, columns, own, options=options, base={"N": 385})
@@ -674,7 +660,7 @@ def phase_map() -> Example:
         "release_phase": [own],
         "period_releases": [3],
     }
-    options = {"probes": 6, "releases": 3}
+    options = {"probes": 6}
     study = study_of("locking", {"Omega": [19.9]}, columns, options=options, base={"N": 200})
     return Example(
         {},

@@ -107,9 +107,9 @@ def test_a_table_of_a_disc_is_read_beside_the_file(tmp_path: Path) -> None:
     )
     axes = {"disc": ["d.csv"], "N": [100]}
     study = parsed({**GRID, "base": {"Omega": 10}, "axes": axes}, tmp_path)
-    assert study.grid is not None
-    assert study.grid.case.disc is not None
-    assert study.grid.case.disc.diameters == (1, 2)
+    case, _ = study.case
+    assert case.disc is not None
+    assert case.disc.diameters == (1, 2)
 
 
 def test_a_figure_may_show_the_grid_of_another_file(tmp_path: Path) -> None:
@@ -125,11 +125,7 @@ def test_a_figure_may_show_the_grid_of_another_file(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     ("change", "words"),
-    [
-        ({"study": "elsewhere"}, "name of the file"),
-        ({"cases": {"A": CASE}}, "grid alone"),
-        ({"quantity": "critical_sped"}, "critical_sped"),
-    ],
+    [({"cases": {"A": CASE}}, "grids alone"), ({"quantity": "critical_sped"}, "critical_sped")],
 )
 def test_a_fault_of_another_file_is_named(change: Any, words: str, tmp_path: Path) -> None:
     (tmp_path / "other.yaml").write_text(yaml.safe_dump({**GRID, "study": "other", **change}))

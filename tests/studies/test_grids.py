@@ -13,9 +13,9 @@ import xarray as xr
 
 import disc_model as dm
 from disc_model.studies.compute import stack
-from disc_model.studies.grid import Grid, expand
-from disc_model.studies.run import merge, point_lines, run_job
-from disc_model.studies.study import StudyError, parse_study
+from disc_model.studies.grid import expand
+from disc_model.studies.run import merge, run_job, told_points
+from disc_model.studies.study import Study, StudyError, parse_study
 
 STUDY: dict[str, Any] = {
     "study": "small",
@@ -26,10 +26,8 @@ STUDY: dict[str, Any] = {
 }
 
 
-def grid_of(**changes: Any) -> Grid:
-    grid = parse_study({**STUDY, **changes}, Path()).grid
-    assert grid is not None
-    return grid
+def study_of(**changes: Any) -> Study:
+    return parse_study({**STUDY, **changes}, Path())
 
 
 @pytest.mark.parametrize(
@@ -43,7 +41,7 @@ def grid_of(**changes: Any) -> Grid:
     ],
 )
 def test_an_axis_mixes_values_and_ranges(axis: Any, values: list[float]) -> None:
-    grid = grid_of(axes={**STUDY["axes"], "c": axis})
+    grid = study_of(axes={**STUDY["axes"], "c": axis})
     assert grid.dims["c"]["c"].tolist() == values
 
 
@@ -62,19 +60,19 @@ def test_points_are_a_table_in_the_order_of_the_parameters() -> None:
 
 
 def test_jobs_hold_all_points_once_and_are_named_by_their_content() -> None:
-    grid = grid_of()
+    grid = study_of()
     jobs = {key: json.loads(text) for key, text in grid.jobs.items()}
     assert [len(job["points"]) for job in jobs.values()] == [4, 3, 3]
-    assert [*chain(*(job["points"] for job in jobs.values()))] == grid.rows
-    assert grid.jobs == grid_of().jobs
+    assert [*chain(*(job["points"] for job in jobs.values()))] == grid.points.to_dict("records")
+    assert grid.jobs == study_of().jobs
     contents = {key.partition("-")[0] for key in jobs}
     assert len(contents) == 1
     further = {
-        key.partition("-")[0] for key in grid_of(axes={"N": [385], "Omega": [11, 12, 13.5]}).jobs
+        key.partition("-")[0] for key in study_of(axes={"N": [385], "Omega": [11, 12, 13.5]}).jobs
     }
     assert further == contents
     for change in ({"base": {"mu_k": 0.21}}, {"options": {"tol": 1e-11}}):
-        assert {key.partition("-")[0] for key in grid_of(**change).jobs}.isdisjoint(contents)
+        assert {key.partition("-")[0] for key in study_of(**change).jobs}.isdisjoint(contents)
 
 
 def test_a_study_a_sweep_and_direct_calls_give_equal_numbers() -> None:
@@ -84,7 +82,7 @@ def test_a_study_a_sweep_and_direct_calls_give_equal_numbers() -> None:
     swept = dm.sweep(
         dm.floquet, dm.Parameters(N=385, Omega=15), **{name: sorted(x) for name, x in axes.items()}
     )
-    grid = grid_of(base={}, axes=axes)
+    grid = study_of(base={}, axes=axes)
     merged = merge(
         json.loads(json.dumps(grid.layout)), [run_job(job) for job in grid.jobs.values()], {}
     )
@@ -99,16 +97,16 @@ def test_a_study_a_sweep_and_direct_calls_give_equal_numbers() -> None:
 
 
 def test_a_further_value_takes_points_that_are_known() -> None:
-    known = [run_job(job) for job in grid_of().jobs.values()]
+    known = [run_job(job) for job in study_of().jobs.values()]
     calls = []
 
     def counted(*args: Any, **options: Any) -> Any:
         calls.append(args)
         return original(*args, **options)
 
-    more = grid_of(axes={"N": [385, 300], "Omega": [10, 11, 11.5, 12, 13, 14]}, points_per_job=100)
+    more = study_of(axes={"N": [385, 300], "Omega": [10, 11, 11.5, 12, 13, 14]}, points_per_job=100)
     [job] = more.jobs.values()
-    quantity = more.quantity
+    quantity = more.of
     original = quantity.function
     object.__setattr__(quantity, "function", counted)
     try:
@@ -134,9 +132,9 @@ def test_what_failed_and_what_is_left_out_is_missing(
     assert status in words
     assert ("excluded" in words) is left_out
     assert np.isnan(study["growth_rate"].values[words != "ok"]).all()
-    failures, _ = point_lines(study)
+    failures, _ = told_points(study)
     assert len(failures) == (not left_out)
-    assert all("Omega = 12 rad/s, mu_k = 0.5: failed" in line for line in failures)
+    assert failures["Omega (rad s-1)"].tolist() == ([] if left_out else [12])
 
 
 def test_an_infinite_value_and_words_go_through_jobs() -> None:
@@ -146,7 +144,7 @@ def test_an_infinite_value_and_words_go_through_jobs() -> None:
         "N": [385],
         "Omega": [12],
     }
-    [job] = grid_of(axes=axes, points_per_job=9).jobs.values()
+    [job] = study_of(axes=axes, points_per_job=9).jobs.values()
     results = run_job(job)
     assert results["friction_decay"].values.tolist() == [1.0, math.inf]
     assert results["normalization"].values.tolist() == ["orthonormal"] * 2
@@ -166,4 +164,4 @@ def test_stacked_results_keep_kinds_and_end_in_what_is_missing() -> None:
 
 def test_a_rule_that_is_no_rule_is_refused() -> None:
     with pytest.raises(StudyError, match="where"):
-        grid_of(where="Omga > 1")
+        study_of(where="Omga > 1")

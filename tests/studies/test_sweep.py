@@ -62,17 +62,16 @@ def test_words_missing_numbers_and_messages_where_a_point_fails() -> None:
     [
         (lambda: dm.sweep(dm.floquet, CASE, Omga=[1]), "Omga Omega"),
         (lambda: dm.sweep(dm.floquet, CASE, Omega=12), "Omega list"),
-        (lambda: dm.sweep(dm.floquet, CASE, Omega=["12 N"]), "Omega[0] '12 N' rad/s"),
+        (lambda: dm.sweep(dm.floquet, CASE, Omega=["12 N"]), "Omega '12 N' rad/s"),
         (lambda: dm.sweep(dm.floquet, CASE), "vary"),
         (lambda: dm.sweep(dm.floquet, CASE, zip={"N": [1], "Omega": [1, 2]}), "zip equal length"),
         (lambda: dm.sweep(dm.floquet, 3, Omega=[1]), "case Parameters"),
-        (lambda: dm.sweep(3, CASE, Omega=[1]), "function"),
         (lambda: dm.sweep(dm.floquet, CASE, Omega=[1], tol=7), "tol 7"),
         (lambda: dm.sweep(dm.floquet, CASE, N=[-1, -2]), "no point N=-1"),
         (lambda: dm.sweep(lambda case: None, CASE, N=[1, 2]), "return"),
     ],
 )
-def test_what_cannot_be_is_refused_before_the_work(call: Any, words: str) -> None:
+def test_what_cannot_be_is_refused(call: Any, words: str) -> None:
     with pytest.raises(ParameterError) as error:
         call()
     assert all(word in str(error.value) for word in words.split()), error.value

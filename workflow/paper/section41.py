@@ -14,7 +14,7 @@ from disc_model.analysis import classify, spectra
 from disc_model.data.dataset import Missing
 from disc_model.data.texts import fill
 from disc_model.data.variables import UNKNOWN_OUTCOMES, flag_names
-from disc_model.studies.quantities.swept_speeds import swept_speeds
+from disc_model.studies.quantities.hysteresis import swept_speeds
 from workflow.paper import energy, judging_tables, measures
 from workflow.paper.measures import (
     Absent,
@@ -241,7 +241,7 @@ def separations_below(
     if sweeps is not None:
         begins, turns = xr.align(critical, published(sweeps), join="inner")
         swept = swept_speeds(turns)
-        columns = (begins["N"], swept.onset, swept.end, begins)
+        columns = (begins["N"], *swept, begins)
         for row in zip(*(column.values for column in columns), strict=True):
             _, up, down, begin = row
             if begin - np.fmin(up, down) > within:

@@ -4,7 +4,7 @@
 EXPLORED = sorted(
     GRIDS, key=lambda study: GRIDS[study].quantity not in ("outcome", "regions")
 )
-MOTIONS = {name: GRIDS[name].grid.motions for name in GRIDS}
+MOTIONS = {name: GRIDS[name].motions for name in GRIDS}
 motion_files = {
     name: [f"results/{name}/motions/{key}.nc" for key in jobs]
     for name, jobs in MOTIONS.items()

@@ -9,7 +9,7 @@ rule draw_figure:
         png=report(
             "results/{study}/figures/{figure}.png",
             caption="../report/figure.rst",
-            category=lambda w: figure_of(w).category,
+            category="Figures",
             subcategory=lambda w: figure_of(w).section,
             # One label only: Snakemake 9.27's report breaks on two results that differ in two labels. Without braces:
             # Snakemake takes them for wildcards even here.

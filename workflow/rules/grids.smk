@@ -2,7 +2,7 @@
 # computed where it is merged.
 part_file = "results/{}/batches/{}.nc".format
 grid_file = "results/{0}/{0}.nc".format
-JOBS = {name: study.grid.jobs for name, study in GRIDS.items()}
+JOBS = {name: study.jobs for name, study in GRIDS.items()}
 
 
 rule compute_part:
@@ -40,7 +40,7 @@ rule merge_grid:
         folder=lambda w: f"results/{w.study}/batches",
         plan=lambda w: json.dumps(
             {
-                "layout": GRIDS[w.study].grid.layout,
+                "layout": GRIDS[w.study].layout,
                 "jobs": JOBS[w.study],
                 "attrs": GRIDS[w.study].attrs,
             }

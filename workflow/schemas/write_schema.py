@@ -49,7 +49,8 @@ def schema_text() -> str:
     study = content["$defs"].pop(Study.__name__)
     of_kinds = [refs[kind, "validation"] for _, kind in sorted(KINDS.items())]
     others = {"type": "object", "properties": {"kind": {"pattern": r"^\w+\.\w+$"}}}
-    study["properties"]["figures"]["additionalProperties"] = {"anyOf": [*of_kinds, others]}
+    of_any = {"anyOf": [*of_kinds, others, {"type": "null"}]}
+    study["properties"]["figures"] = {"type": "object", "additionalProperties": of_any}
     schema = {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "A study of disc_model",

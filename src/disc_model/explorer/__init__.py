@@ -43,8 +43,7 @@ def study_contents(name: str, study: Dataset, motions: Dataset | None, stated: E
     """What the page has of a study: its name and title, what is fixed, and `contents`, packed: groups
     of variables with the same dimensions, and motions.
 
-    stated : what its file states: `units` and `axes` of figures, and what each `motion` is, which
-        `motion_by` says more exactly by what a point comes to
+    stated : what its file states: `units` and `axes` of figures, and what each `motion` is
     """
     data = _in_words(shown(study, stated["units"]))
     if max(data.sizes.values()) > 1:
@@ -122,7 +121,7 @@ def _motions(motions: Dataset, points: DataArray, stated: Entries) -> Entries:
     samples, and the chart of one."""
     places = motions["length"].to_dataframe().reset_index()
     places = places.merge(points.to_dataframe().reset_index(), how="left")
-    places["text"] = places["_end"].map(stated["motion_by"]).fillna(stated["motion"])
+    places["text"] = stated["motion"]
     samples = motions.to_dataframe().reset_index()
     return {
         "motions": _columns(places),

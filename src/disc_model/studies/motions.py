@@ -3,25 +3,18 @@
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Callable
-from dataclasses import replace
-from functools import partial
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
-from disc_model.data.described import described
-from disc_model.data.variables import OF_QUANTITIES
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Window
 from disc_model.simulation.states import State
-from disc_model.studies.compute import compute, stack
-from disc_model.studies.quantity import found, quantity_of
-from disc_model.studies.run import POINT, call_of, points_of
+from disc_model.studies.quantity import found
 
 SAMPLES = 256  # of a history: nearly four per oscillation of the fastest mode of the paper's disc in the longest one
 CYCLES_SHOWN = 2  # number of stick-slip cycles in a history
@@ -31,24 +24,8 @@ LONGEST = (
 SHOWN = ("P", "u", "psi")
 
 
-def run_motions(job: str) -> xr.Dataset:
-    """Histories along `point` and `sample`, for a text of `Grid.motions`."""
-    layout = json.loads(job)
-    points = points_of(layout)
-    motion = quantity_of(layout["quantity"]).motion
-    assert motion is not None
-    call = replace(call_of(layout), function=partial(_history, motion.state))
-    rows = compute(call, points)
-    places = np.arange(len(rows))[:, np.newaxis]
-    columns = OF_QUANTITIES["motions"]["columns"]
-    histories = stack(rows, places, {POINT: len(rows)}, columns)
-    histories = histories.assign({name: histories[name].astype(np.float32) for name in SHOWN})
-    varied = {name: (POINT, [point[name] for point in points]) for name in points[0]}
-    return described(histories.assign_coords(varied), "motions")
-
-
-def _history(state: Callable[..., State], case: Parameters, **options: Any) -> xr.Dataset:
-    """A history that begins at a state of a quantity."""
+def history_from(state: Callable[..., State], case: Parameters, **options: Any) -> xr.Dataset:
+    """A history that begins at a state of a quantity, along `sample`."""
     start = state(case, **options).replace(time=0.0, time_low=0.0)
     # of a cycle: the mean time between releases, at least the free period, which stands for it
     # without releases

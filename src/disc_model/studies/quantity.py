@@ -7,22 +7,20 @@ from __future__ import annotations
 
 import inspect
 import math
-import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import wraps
 from importlib import import_module
-from types import MappingProxyType
 from typing import (
     TYPE_CHECKING,
     Annotated,
     Any,
     ClassVar,
-    Concatenate,
     Literal,
     NamedTuple,
-    ParamSpec,
     Self,
+    TypeVar,
+    cast,
     get_type_hints,
 )
 
@@ -34,6 +32,7 @@ from disc_model.data.coded import words
 from disc_model.data.described import described
 from disc_model.data.variables import OF_QUANTITIES, Variable
 from disc_model.errors import DiscModelError, Fault, ParameterError, raise_faults, suggestion
+from disc_model.mode_units import column_of
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.simulation.case import Start
 from disc_model.units import Count, Finite, Positive, Strict, must
@@ -41,32 +40,23 @@ from disc_model.units import Count, Finite, Positive, Strict, must
 if TYPE_CHECKING:
     from disc_model.simulation.states import State
 
-P = ParamSpec("P")
 Function = Callable[..., xr.Dataset]
+F = TypeVar("F", bound=Function)
 Row = Mapping[str, Any]
 Rules = tuple[tuple[Callable[[Any], Any], str], ...]
 NUMERICAL = (DiscModelError, ArithmeticError, np.linalg.LinAlgError)
 """Errors that make a point fail."""
 MOST = 100_000
 """Most values along one axis; a slip of the pen can ask for more than fit into memory."""
-FREE_NUMBERS = re.compile(
-    "|".join(
-        [
-            *(
-                name
-                for name in Parameters.model_fields
-                if Parameters.unit(name) and not name.startswith("n_")
-            ),
-            r"(omega|amplitude|damping_ratio|tangential)_\d+_\d+",
-        ]
-    )
-)
-Free = Annotated[
-    str,
-    AfterValidator(
-        must(lambda name: bool(FREE_NUMBERS.fullmatch(name)), "must be a number of the case")
-    ),
-]
+
+
+def _is_free(name: str) -> bool:
+    """Whether a name is that of a number that varies continuously."""
+    of_disc = bool(column_of(name))
+    return of_disc or (Parameters.unit(name) != "" and not name.startswith("n_"))
+
+
+Free = Annotated[str, AfterValidator(must(_is_free, "must be a number of the case"))]
 """A number along which a function goes: a parameter, or one of a disc's modes."""
 
 
@@ -121,33 +111,24 @@ class Range(Ruled):
     def values(self) -> list[float]:
         """All values, those inside rounded to 12 digits, so that ranges and lists agree on 0.3."""
         intervals = round(self.steps)
-        inside = [self._value_at(place / intervals) for place in range(1, intervals)]
-        return [self.start, *inside, self.stop]
-
-    def _value_at(self, share: float) -> float:
-        """The value at a share of the way."""
+        shares = np.arange(1, intervals) / intervals
         if self.scale == "log":
-            return float(f"{self.start * (self.stop / self.start) ** share:.12g}")
-        return float(f"{self.start + share * (self.stop - self.start):.12g}")
+            inside = self.start * (self.stop / self.start) ** shares
+        else:
+            inside = self.start + shares * (self.stop - self.start)
+        return [self.start, *(float(f"{value:.12g}") for value in inside), self.stop]
 
 
 def values_between(bounds: tuple[float, float], step: float) -> list[float]:
-    """Evenly spaced values from the first to the last of two bounds."""
+    """Evenly spaced values from the first to the last of two bounds; raises `ParameterError`."""
     return Range(start=bounds[0], stop=bounds[1], step=step).values
 
 
-BETWEEN: Rules = (
-    (lambda o: o.bounds[0] < o.bounds[1], "bounds={0.bounds} must ascend"),
-    (lambda o: o.bounds[1] - o.bounds[0] < (MOST - 0.5) * o.step, f"must be at most {MOST} values"),
-    (
-        lambda o: math.isclose(x := (o.bounds[1] - o.bounds[0]) / o.step, round(x)),
-        "highest - lowest of bounds={0.bounds} must be a multiple of step={0.step:g}",
-    ),
-)
-"""Rules of the options `bounds` and `step`."""
+BETWEEN: Rules = ((lambda o: values_between(o.bounds, o.step), ""),)
+"""The rule of the options `bounds` and `step`."""
 
 
-def _listed(given: Any) -> Any:
+def listed_values(given: Any) -> Any:
     """A list of values, in which ranges are replaced by theirs."""
     parts = [given] if isinstance(given, Mapping | int | float | str) else given
     if not isinstance(parts, list | tuple | np.ndarray):
@@ -160,7 +141,7 @@ def _listed(given: Any) -> Any:
 
 Values = Annotated[
     tuple[Finite, ...],
-    BeforeValidator(_listed, json_schema_input_type=list[Finite | Range] | Range | Finite),
+    BeforeValidator(listed_values, json_schema_input_type=list[Finite | Range] | Range | Finite),
     Field(min_length=1),
 ]
 """Numbers: a list of them and of ranges {start, stop, count or step, scale}, or one range."""
@@ -182,30 +163,14 @@ COME_TO = (
     "What the motion has come to: a while after the first separation, on the cycle it settled to, "
     "or at the horizon."
 )
-_ON_CYCLE = "The motion on the cycle that it has settled to."
-_AT_HORIZON = "The motion at the horizon."
-COME_TO_BY: Mapping[str, str] = MappingProxyType(
-    {
-        "separation": "The motion a while after the first separation.",
-        "stick_slip": _ON_CYCLE,
-        "other_cycle": _ON_CYCLE,
-        "separating": _ON_CYCLE,
-        "steady_sliding": "The steady sliding that the motion has settled to.",
-        "at_rest": "The rest to which the motion has come.",
-        "undecided": _AT_HORIZON,
-        "growing": _AT_HORIZON,
-    }
-)
-"""What a motion has come to, by its outcome."""
 
 
 class Motion(NamedTuple):
-    """Motions that the explorer stores: of so many values of each axis, what they are, by the class of
-    their point, and the state at which they begin, of a case and options."""
+    """Motions that the explorer stores: of so many values of each axis, what they are, and the state at which
+    they begin, of a case and options."""
 
     number: int
     text: str
-    by: Mapping[str, str]
     state: Callable[..., State]
 
 
@@ -218,7 +183,6 @@ class Quantity:
     name, function : of a case, with `options` as keywords; it returns codes for words, as files have them
     points_per_job : most points of a job, some 20 s of work with nine modes
     own : numbers of the case that it varies by itself, or the options that name them
-    plane : whether it takes all values along two numeric axes at once, as `axes`
     motion : what the explorer stores
     """
 
@@ -227,7 +191,6 @@ class Quantity:
     options: type[Ruled]
     points_per_job: int
     own: tuple[str, ...]
-    plane: bool
     motion: Motion | None
 
     @property
@@ -237,6 +200,10 @@ class Quantity:
     def varied(self, options: Any) -> tuple[str, ...]:
         """Numbers of the case that it varies by itself, for given options."""
         return tuple(str(getattr(options, name, name)) for name in self.own)
+
+    def unset(self, options: Any) -> dict[str, float]:
+        """Values of required parameters that it varies by itself, which a case must have."""
+        return {name: 0.0 for name in self.varied(options) if name in ("N", "Omega")}
 
 
 QUANTITIES: dict[str, Quantity] = {}
@@ -276,53 +243,38 @@ def quantity(
     points_per_job: int = 1,
     own: Sequence[str] = (),
     rules: Rules = (),
-    plane: bool = False,
     motion: Motion | None = None,
-) -> Callable[
-    [Callable[Concatenate[Parameters, P], xr.Dataset]],
-    Callable[Concatenate[Parameters, P], xr.Dataset],
-]:
+) -> Callable[[F], F]:
     """Mark a function of a case as a quantity: its keywords become options of study files, and calls of it
     check them, by their types and by the rules between them.
 
     A call returns words; studies call the function itself, for codes.
     """
 
-    def mark(
-        function: Callable[Concatenate[Parameters, P], xr.Dataset],
-    ) -> Callable[Concatenate[Parameters, P], xr.Dataset]:
+    def mark(function: F) -> F:
         name = function.__name__
         options = options_of(function, rules)
-        _, *parameters = inspect.signature(function).parameters.values()
-        named = [x.name for x in parameters]
-        defaults = {x.name: x.default for x in parameters if x.default is not x.empty}
-        QUANTITIES[name] = Quantity(
-            name, function, options, points_per_job, tuple(own), plane, motion
-        )
+        fields = options.model_fields.items()
+        defaults = {key: field.default for key, field in fields if not field.is_required()}
+        QUANTITIES[name] = Quantity(name, function, options, points_per_job, tuple(own), motion)
 
         @wraps(function)
-        def checked(case: Parameters, *args: P.args, **given: P.kwargs) -> xr.Dataset:
+        def checked(case: Parameters, *args: Any, **given: Any) -> xr.Dataset:
             raise_faults(foreign_case(case))
-            asked = {**defaults, **dict(zip(named, args, strict=False)), **given}
-            beside = {"axes": asked.pop("axes")} if plane else {}
+            asked = {**defaults, **dict(zip(options.model_fields, args, strict=False)), **given}
             chosen = options.model_validate(asked)
-            found = function(case, **beside, **dict(chosen))  # type: ignore[call-arg]
-            if found["message"].ndim == 0:
-                found = found.assign_attrs(message=str(found["message"].values)).drop_vars(
-                    "message"
-                )
-            single = [
-                dim for dim in found.dims if isinstance(asked.get(str(dim)), int | float | str)
-            ]
-            found = found.squeeze(single, drop=True)
-            found = found.assign_attrs(
-                parameters=case.canonical_json, options=chosen.model_dump_json()
-            )
+            found = function(case, **dict(chosen))
+            said = {"parameters": case.canonical_json, "options": chosen.model_dump_json()}
+            if not found["message"].dims:
+                said["message"] = found["message"].item()
+                found = found.drop_vars("message")
+            scalars = [x for x in found.dims if isinstance(asked.get(str(x)), int | float)]
+            found = found.squeeze(scalars, drop=True).assign_attrs(said)
             return words(described(found, name, dict(chosen)))
 
         function.__qualname__ += ".__wrapped__"  # by which pickle finds it
         checked.__doc__ = _documented(function)
-        return checked
+        return cast(F, checked)
 
     return mark
 
@@ -357,9 +309,8 @@ def options_of(function: Callable[..., Any], rules: Rules) -> type[Ruled]:
     _, *parameters = inspect.signature(function).parameters.values()
     fields: dict[str, Any] = {}
     for parameter in parameters:
-        if parameter.name != "axes":  # which a plane is given by the study
-            default = ... if parameter.default is parameter.empty else parameter.default
-            fields[parameter.name] = (hints[parameter.name], default)
+        default = ... if parameter.default is parameter.empty else parameter.default
+        fields[parameter.name] = (hints[parameter.name], default)
     model = create_model(function.__name__, __base__=Ruled, **fields)
     model._rules = rules
     return model
@@ -370,7 +321,12 @@ def options_of(function: Callable[..., Any], rules: Rules) -> type[Ruled]:
 
 def failed(name: str, error: Exception) -> xr.Dataset:
     """The dataset of a point of a quantity that an error has ended."""
-    return found(name, {"status": "failed"}, f"{type(error).__name__}: {error}")
+    from disc_model.simulation.result import STATUS_OF
+
+    word = dict[Any, Any](STATUS_OF).get(type(error), "failed")
+    known = OF_QUANTITIES[name]["columns"]["status"].flags
+    status = word if word in known else "failed"
+    return found(name, {"status": status}, f"{type(error).__name__}: {error}")
 
 
 def found(
@@ -388,43 +344,32 @@ def found(
     """
     coords = {dim: xr.Variable(dim, np.array([*along])) for dim, along in own.items()}
     variables: dict[str, Any] = {}
-    cuts: dict[str, str] = {}
+    lengths: dict[str, int] = {}
     for key, column in OF_QUANTITIES[name]["columns"].items():
-        if not coords.keys() >= {*column.dims}:
-            continue
-        array = column.empty(tuple(coords[dim].size for dim in column.dims))
-        value = values.get(key)
-        _store(value, array[...], column)
-        variables[key] = xr.Variable(column.dims, array, column.codes)
-        for dim, length in zip(column.dims, _shape(value), strict=False):
-            if length > coords[dim].size:
-                room = f"which has room for {coords[dim].size}"
-                cuts[dim] = f"{length} were found along {dim}, {room}"
-    texts = []
-    for text in [message] if isinstance(message, str) else message:
-        texts.append(
-            "; ".join(filter(None, [text.removesuffix(".") if cuts else text, *cuts.values()]))
-        )
+        if coords.keys() >= {*column.dims}:
+            array = column.empty(tuple(coords[dim].size for dim in column.dims))
+            _store(values.get(key), array[...], column, lengths)
+            variables[key] = xr.Variable(column.dims, array, column.codes)
+    cuts = []
+    for dim, length in lengths.items():
+        room = coords[dim].size
+        if length > room:
+            cuts.append(f"{length} were found along {dim}, which has room for {room}")
+    texts = [message] if isinstance(message, str) else message
+    if cuts:
+        texts = ["; ".join(filter(None, [text.removesuffix("."), *cuts])) for text in texts]
     said = ((), texts[0]) if isinstance(message, str) else (next(iter(coords)), texts)
     return xr.Dataset({**variables, "message": said}, coords)
 
 
-def _shape(value: Any) -> tuple[int, ...]:
-    """The shape of an array, or of a list of arrays or lists with the longest of them."""
-    if not isinstance(value, list):
-        return np.shape(value)
-    inside = [shape for shape in map(_shape, value) if shape]
-    return (len(value), *map(max, zip(*inside, strict=False)))
-
-
-def _store(value: Any, cell: np.ndarray, column: Variable) -> None:
-    """Store a value in a view of an array: flags as numbers; lists and arrays are cut to fit."""
-    if isinstance(value, list):
+def _store(value: Any, cell: np.ndarray, column: Variable, lengths: dict[str, int]) -> None:
+    """Store a value in a view of an array, words as numbers; lists and arrays are cut to fit, and their
+    greatest lengths kept by dimension."""
+    if isinstance(value, list | np.ndarray):
+        dim = column.dims[-cell.ndim]
+        lengths[dim] = max(len(value), lengths.get(dim, 0))
         for i, item in enumerate(value[: len(cell)]):
-            _store(item, cell[i, ...], column)
-    elif isinstance(value, np.ndarray) and value.ndim:
-        part = value[tuple(map(slice, cell.shape))]
-        cell[tuple(map(slice, part.shape))] = part
+            _store(item, cell[i, ...], column, lengths)
     elif isinstance(value, str):
         cell[...] = column.flags.index(value)
     elif value is not None:

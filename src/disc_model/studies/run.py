@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import logging
-import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
@@ -12,18 +11,26 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+import pandas as pd
 import xarray as xr
 
+from disc_model.data.coded import table_of
 from disc_model.data.dataset import CONVENTIONS, common_provenance, json_attribute
 from disc_model.data.described import described
-from disc_model.data.variables import CHOICES, EXCLUDED, attributes, unit_of_parameter
-from disc_model.errors import require
+from disc_model.data.variables import (
+    EXCLUDED,
+    OF_QUANTITIES,
+    Variable,
+    attributes,
+    attributes_of_mode,
+)
 from disc_model.parameters import Disc, Parameters
-from disc_model.provenance import canonical_json, git_commit, physics_hash, versions_text
+from disc_model.provenance import git_commit, physics_hash, versions_text
 from disc_model.simulation.named_case import run_case
 from disc_model.studies.compute import Call, compute, stack
-from disc_model.studies.grid import REQUIRED, VARIED, WORDS
-from disc_model.studies.quantity import quantity_of
+from disc_model.studies.grid import VARIED, WORDS, Points, case_of
+from disc_model.studies.motions import history_from
+from disc_model.studies.quantity import failed, quantity_of
 
 if TYPE_CHECKING:
     from disc_model.studies.study import Study
@@ -39,40 +46,17 @@ Layout = Mapping[str, Any]
 def call_of(layout: Layout) -> Call:
     """The call of a quantity, from what all points of a grid have in common."""
     quantity = quantity_of(layout["quantity"])
-    options = dict(quantity.options.model_validate(layout["options"]))
-    if layout.get("axes"):
-        # in the order of the parameters, which JSON does not keep
-        names = sorted(layout["axes"], key=VARIED.index)
-        options["axes"] = {name: [*map(_number, layout["axes"][name])] for name in names}
+    options = quantity.options.model_validate(layout["options"])
     discs = {name: Disc.model_validate(disc) for name, disc in layout["discs"].items()}
-    base = {name: x for name, x in layout["base"].items() if x is not None}
-    return Call(quantity.function, partial(_case, base), options, discs)
-
-
-def points_of(layout: Layout) -> list[dict[str, Any]]:
-    """What varies at the points of a job."""
-    points = []
-    for point in layout["points"]:
-        points.append({name: x if name in WORDS else _number(x) for name, x in point.items()})
-    return points
+    make = partial(case_of, {**quantity.unset(options), **layout["base"]}, discs)
+    return Call(quantity.function, make, dict(options), partial(failed, quantity.name))
 
 
 def _known_or_made(
-    case: Parameters, first: Mapping[str, Any], make: Callable[..., Parameters], **changes: Any
+    case: Parameters, first: Mapping[str, Any], make: Callable[..., Parameters], **own: Any
 ) -> Parameters:
     """The case of the first point, which is made already, or another one."""
-    return case if changes == first else make(**changes)
-
-
-def _case(base: Mapping[str, Any], **changes: Any) -> Parameters:
-    """A case from the values that do not vary, and from those that do; what the quantity varies by
-    itself is 0."""
-    return Parameters(**{**dict.fromkeys(REQUIRED, 0.0), **base, **changes})
-
-
-def _number(value: Any) -> Any:
-    """A number of a JSON text, which has a word for an infinite one."""
-    return math.inf if value == "inf" else value
+    return case if own == first else make(**own)
 
 
 def run_job(job: str, known: Iterable[xr.Dataset] = ()) -> xr.Dataset:
@@ -84,39 +68,46 @@ def run_job(job: str, known: Iterable[xr.Dataset] = ()) -> xr.Dataset:
     known : results of other jobs on the same quantity, options and base, from which points are taken
     """
     layout = json.loads(job)
-    points = points_of(layout)
-    there = {canonical_json(point): row for part in known for point, row in _points_of(part)}
-    missing = [point for point in points if canonical_json(point) not in there]
+    points = layout["points"]
+    there = {tuple(point.items()): row for part in known for point, row in _points_of(part)}
+    missing = [point for point in points if tuple(point.items()) not in there]
     for point, row in zip(missing, compute(call_of(layout), missing), strict=True):
-        there[canonical_json(point)] = row
+        there[tuple(point.items())] = row
     log.info("%d of %d points computed", len(missing), len(points))
-    rows = [there[canonical_json(point)] for point in points]
-    return _along_points(layout, points, rows)
+    rows = [there[tuple(point.items())] for point in points]
+    return _along_points(points, rows, quantity_of(layout["quantity"]).columns)
+
+
+def run_motions(job: str) -> xr.Dataset:
+    """Short histories of the motion along `point` and `sample`, for a text of `Grid.motions`."""
+    layout = json.loads(job)
+    motion = quantity_of(layout["quantity"]).motion
+    assert motion is not None
+    history = partial(history_from, motion.state)
+    call = replace(call_of(layout), function=history, failed=partial(failed, "motions"))
+    columns = OF_QUANTITIES["motions"]["columns"]
+    points = layout["points"]
+    return described(_along_points(points, compute(call, points), columns), "motions")
 
 
 def _along_points(
-    layout: Layout, points: Sequence[Mapping[str, Any]], rows: Sequence[xr.Dataset]
+    points: Points, rows: Sequence[xr.Dataset], columns: Mapping[str, Variable]
 ) -> xr.Dataset:
     """Results in one dataset, with what varies as coordinates along `point`."""
     places = np.arange(len(rows))[:, np.newaxis]
-    results = stack(rows, places, {POINT: len(rows)}, quantity_of(layout["quantity"]).columns)
     varied = {name: (POINT, [point[name] for point in points]) for name in points[0]}
-    said = {
-        "source_hash": physics_hash(),
-        "versions": versions_text(),
-        "names": json_attribute([*points[0]]),
-    }
-    return results.assign_coords(varied).assign_attrs(said)
+    said = {"source_hash": physics_hash(), "versions": versions_text()}
+    results = stack(rows, places, {POINT: len(rows)}, columns)
+    return results.assign_coords(varied).assign_attrs(said, names=json.dumps([*varied]))
 
 
 def _points_of(part: xr.Dataset) -> Iterable[tuple[dict[str, Any], xr.Dataset]]:
     """The points of a job's results, and the result at each."""
     names = json.loads(part.attrs["names"])
-    columns = [part[name].values.tolist() for name in names]
     results = part.drop_vars(names)
+    columns = [part[name].values.tolist() for name in names]
     for i in range(part.sizes[POINT]):
-        point = {name: column[i] for name, column in zip(names, columns, strict=True)}
-        yield point, results.isel({POINT: i})
+        yield {name: x[i] for name, x in zip(names, columns, strict=True)}, results.isel(point=i)
 
 
 def merge(layout: Layout, parts: Sequence[xr.Dataset], attrs: Mapping[str, str]) -> xr.Dataset:
@@ -131,90 +122,51 @@ def merge(layout: Layout, parts: Sequence[xr.Dataset], attrs: Mapping[str, str])
     """
     quantity = quantity_of(layout["quantity"])
     pairs = [pair for part in parts for pair in _points_of(part)]
-    given = pairs[0][0].keys()
-    dims = {}
-    for dim, columns in layout["dims"].items():
-        values = [
-            [x if name in WORDS else _number(x) for x in column] for name, column in columns.items()
-        ]
-        dims[dim] = [*zip(*values, strict=True)]
-    numbered = {dim: [*layout["dims"][dim]] for dim in dims if {*layout["dims"][dim]} <= given}
+    points = pd.DataFrame([point for point, _ in pairs], index=range(len(pairs)))
+    coords: dict[str, Any] = {}
+    sizes = {}
     places = []
-    for point, _ in pairs:
-        places.append(
-            [dims[dim].index(tuple(point[x] for x in names)) for dim, names in numbered.items()]
-        )
-    sizes = {dim: len(dims[dim]) for dim in numbered}
-    found = stack(
-        [row for _, row in pairs], np.array(places).reshape(len(pairs), -1), sizes, quantity.columns
-    )
-
-    coords = {}
     for dim, columns in layout["dims"].items():
-        for i, name in enumerate(columns):
-            coords[name] = (
-                dim,
-                np.array([value[i] for value in dims[dim]]),
-                coordinate_attributes(name),
-            )
-    study = found.assign_coords(coords)
-    first = {dim: next(iter(columns)) for dim, columns in layout["dims"].items()}
-    ranked = sorted(study.dims, key=lambda dim: _rank(first.get(str(dim), str(dim))))
+        frame = pd.DataFrame(columns)
+        known = pd.MultiIndex.from_frame(frame)
+        places.append(known.get_indexer(pd.MultiIndex.from_frame(points[[*columns]])))
+        sizes[dim] = len(frame)
+        for name, values in columns.items():
+            coords[name] = (dim, values, coordinate_attributes(name))
+    rows = [row for _, row in pairs]
+    study = stack(rows, np.transpose(places), sizes, quantity.columns).assign_coords(coords)
+    ranks = {dim: VARIED.index(next(iter(columns))) for dim, columns in layout["dims"].items()}
+    ranks |= {name: VARIED.index(name) for name in map(str, study.dims) if name in VARIED}
+    ranked = sorted(study.dims, key=lambda dim: ranks.get(str(dim), len(VARIED)))
     options = layout["options"]
+    stated = {name: layout[name] for name in ("options", "base", "discs")}
+    if not stated["discs"]:
+        del stated["discs"]
     every = {
         "Conventions": CONVENTIONS,
         **attrs,
         "quantity": quantity.name,
-        "options": json_attribute(options),
-        "base": json_attribute(layout["base"]),
-        **({"discs": json_attribute(layout["discs"])} if layout["discs"] else {}),
+        **{name: json_attribute(x) for name, x in stated.items()},
         "git_commit": git_commit(),
         **common_provenance(parts),
     }
     return described(study.transpose(*ranked).assign_attrs(every), quantity.name, options)
 
 
-def _rank(name: str) -> int:
-    """The place of a parameter among those that vary; the last one for anything else."""
-    return VARIED.index(name) if name in VARIED else len(VARIED)
-
-
 def coordinate_attributes(name: str) -> dict[str, Any]:
-    """Attributes of a varying parameter as a coordinate; words have no unit."""
-    stated = attributes(name)
-    if name in (*CHOICES, "disc"):
-        return {"long_name": stated["long_name"]}
-    return stated
+    """Attributes of what varies as a coordinate; words have no unit."""
+    known = attributes(name) if name in VARIED else attributes_of_mode(name)
+    return {"long_name": known["long_name"]} if name in WORDS else known
 
 
 # ---- Points of which there is something to say
 
 
-def point_lines(study: xr.Dataset) -> tuple[list[str], list[str]]:
-    """Lines of the points without a result, and of those with a result and a message: parameters,
-    status and message."""
-    status = study["status"]
-    flags = status.attrs["flag_meanings"].split()
-    varied = [str(name) for name in study.coords if {*study[name].dims} <= {*status.dims}]
-    failures, remarks = [], []
-    for index in np.ndindex(*status.shape):
-        point = study[["status", "message"]].isel(dict(zip(status.dims, index, strict=True)))
-        word = flags[int(point["status"])]
-        message = str(point["message"].values)
-        values = ", ".join(_value_text(name, point[name].item()) for name in varied)
-        if word not in ("ok", EXCLUDED):
-            failures.append(f"{values}: {word}: {message}")
-        elif message:
-            remarks.append(f"{values}: {message}")
-    return failures, remarks
-
-
-def _value_text(name: str, value: Any) -> str:
-    """A value of a point with its name and unit."""
-    if isinstance(value, str):
-        return f"{name} = {value}"
-    unit = unit_of_parameter(name) if name in Parameters.model_fields else ""
-    return f"{name} = {value:.9g} {unit}".strip()
+def told_points(study: xr.Dataset) -> tuple[pd.DataFrame, pd.DataFrame]:
+    """Tables of the points without a result, and of those with a result and a message."""
+    points = table_of(study[["status", "message"]])
+    known = points["status"].isin(["ok", EXCLUDED])
+    return points[~known], points[known & (points["message"] != "")]
 
 
 # ---- Whole studies
@@ -263,12 +215,6 @@ def run_study(
     # needs yaml, of the extra `workflow`
     from disc_model.studies.study import load_study, parse_study
 
-    named = isinstance(source, str | Path | Mapping)
-    require(
-        (named, "source", source, "must be the path of a study file, or a mapping"),
-        (callable(map), "map", map, "must be a function, such as map of an executor"),
-        (isinstance(progress, bool), "progress", progress, "must be True or False"),
-    )
     folder = Path() if isinstance(source, Mapping) else Path(source).parent
     study = parse_study(source, folder) if isinstance(source, Mapping) else load_study(source)
     grids, names = study.all_grids([folder])
@@ -285,10 +231,9 @@ def run_study(
 
 def _run_grid(study: Study, map: Callable[..., Iterable[Any]], progress: bool) -> xr.Dataset:
     """The grid of a study, whose points are computed here."""
-    grid = study.grid
-    assert grid is not None
-    layout = grid.layout
-    call = call_of({**layout, "axes": {dim: grid.dims[dim][dim].tolist() for dim in grid.plane}})
-    call = replace(call, make=partial(_known_or_made, grid.case, grid.first, call.make))
-    rows = compute(call, grid.rows, map=map, title=grid.quantity.name, progress=progress)
-    return merge(layout, [_along_points(layout, grid.rows, rows)], study.attrs)
+    call = call_of(study.layout)
+    call = replace(call, make=partial(_known_or_made, *study.case, call.make))
+    points: Points = study.points.to_dict("records")
+    rows = compute(call, points, map=map, title=study.of.name, progress=progress)
+    part = _along_points(points, rows, study.of.columns)
+    return merge(study.layout, [part], study.attrs)

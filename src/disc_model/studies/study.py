@@ -5,27 +5,31 @@ One `StudyError` lists all faults: those of single values, or those between valu
 
 from __future__ import annotations
 
+import json
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from functools import cached_property, partial, reduce
+from functools import cached_property, reduce
 from glob import glob
 from pathlib import Path
 from types import MappingProxyType
 from typing import Annotated, Any, Literal, NamedTuple, Self
 
+import numpy as np
+import pandas as pd
 import pydantic
 import yaml
 from pydantic import AfterValidator, BeforeValidator, Field, PlainValidator, WithJsonSchema
 from yaml.constructor import ConstructorError
 
 from disc_model.data.files import MissingFile, unreadable
-from disc_model.data.variables import BESIDE_WINDOWS, SCALARS, rule_of_taken, values_text
+from disc_model.data.variables import PERTURBATIONS, values_text
 from disc_model.disc.table import disc_of_table
 from disc_model.display import counted
-from disc_model.errors import DiscModelError, Fault, ParameterError, raise_faults, suggestion
-from disc_model.figures.schema import NORM, CasePlot, Kind, Plot
-from disc_model.figures.shown import factors_of
-from disc_model.parameters import Disc, Parameters
+from disc_model.errors import Fault, ParameterError, raise_faults, require, suggestion
+from disc_model.figures.schema import CasePlot, Kind, Plot
+from disc_model.figures.shown import IN_WORDS, factors_of
+from disc_model.parameters import DEFAULTS, PLATE, Disc, Parameters
+from disc_model.provenance import content_key, physics_hash
 from disc_model.simulation.case import (
     CaseSpec,
     Poincare,
@@ -36,31 +40,21 @@ from disc_model.simulation.case import (
     Window,
     ramp_faults,
 )
-from disc_model.studies.grid import REQUIRED, Columns, Grid, checked_value, dimensions, grid_of
-from disc_model.studies.quantity import HOMES, quantity_of
+from disc_model.studies.grid import Base, Columns, case_of, dimensions, expand, thinned
+from disc_model.studies.quantity import HOMES, Quantity, quantity_of
 from disc_model.units import Count, Seconds, Strict, Tolerance
 
+ALL_MOTIONS = 100  # points of a grid up to which a motion of each is stored, some 3 kB each
 GRID_KEYS = frozenset({"options", "axes", "zip", "where", "points_per_job", "discs"})
-MODES = {
-    "as_published": "modes scaled as in the published results",
-    "orthonormal": "modes normalised as Eq. (17) says",
-}
-MOST_SHOWN = 50  # greatest number of faults in a message
 
 
-class StudyError(DiscModelError, ValueError):
+class StudyError(ParameterError):
     """A study file that breaks rules; `faults` are all of them, each once, as ``path=value: rule``."""
 
     def __init__(self, *faults: str, source: str = "study") -> None:
-        self.faults = tuple(dict.fromkeys(map(str, faults)))
-        self.source = source
-        lines = [f"{source}: {counted(len(self.faults), 'fault')}", *self.faults[:MOST_SHOWN]]
-        if len(self.faults) > MOST_SHOWN:
-            lines.append(f"and {len(self.faults) - MOST_SHOWN} more")
-        super().__init__("\n  ".join(lines))
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return (partial(type(self), source=self.source), self.faults)
+        super().__init__(*dict.fromkeys(faults))
+        head = f"{source}: {counted(len(self.faults), 'fault')}"
+        self.args = ("\n  ".join([head, *self.faults]),)
 
 
 # ---- Files
@@ -80,13 +74,11 @@ class _Loader(yaml.SafeLoader):
 def read_file(path: Path) -> Any:
     """The content of a YAML file; raises `MissingFile`, `UnreadableFile` or `StudyError`."""
     try:
-        text = path.read_text(encoding="utf-8")
+        return yaml.load(path.read_text(encoding="utf-8"), _Loader)
     except FileNotFoundError:
         raise MissingFile(f"{path}: there is no such file") from None
-    except (OSError, ValueError) as error:  # no file, or no text
+    except OSError as error:
         raise unreadable(path, error) from None
-    try:
-        return yaml.load(text, _Loader)
     except (yaml.YAMLError, ValueError, RecursionError) as error:
         raise StudyError(f"cannot be read as YAML: {error}", source=str(path)) from None
 
@@ -109,43 +101,15 @@ def inherit(base: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, An
     return merged
 
 
-# ---- Names
-
-
-TAKEN = frozenset({"case", "message", "title", "reference", *SCALARS, *Parameters.model_fields})
-"""Names of variables in a study's file. Cases and windows become groups beside them and must differ."""
-
-
-def _free_name(kind: str, taken: Iterable[str]) -> AfterValidator:
-    """The name of a case or of a window, which is not that of a parameter, variable or group."""
-
-    def checked(name: str) -> str:
-        if name in taken:
-            raise ValueError(f"{rule_of_taken(name)}; {kind}_{name} would do")
-        return name
-
-    return AfterValidator(checked)
-
-
-_LETTERS = pydantic.StringConstraints(pattern=r"^[A-Za-z][A-Za-z0-9_]*$", max_length=100)
-Name = Annotated[str, _LETTERS]
-CaseName = Annotated[Name, _free_name("case", TAKEN)]
-WindowName = Annotated[Name, _free_name("window", TAKEN | BESIDE_WINDOWS)]
-
-
-def _as_mapping(raw: Any) -> Mapping[str, Any]:
-    if not isinstance(raw, Mapping):
-        raise ValueError("must be a mapping")
-    return raw
-
-
 # ---- Named cases
+
+Name = Annotated[str, pydantic.StringConstraints(pattern=r"^[A-Za-z]\w*$", max_length=100)]
 
 
 class RecordSpec(Strict):
     """What is recorded of a case. Figures and claims refer to windows by their names."""
 
-    windows: dict[WindowName, Window | None] = Field({})  # None drops one that is inherited
+    windows: dict[Name, Window | None] = Field({})  # None drops one that is inherited
     poincare: Poincare | None = None
     events: bool | Span = True
 
@@ -156,12 +120,8 @@ class NamedCase(Strict):
     title: str = ""
     reference: str = ""
     parameters: Annotated[
-        Parameters,
-        PlainValidator(
-            lambda raw: Parameters.model_validate(_as_mapping(raw)),
-            json_schema_input_type=SomeParameters,
-        ),
-    ] = Field({}, validate_default=True)
+        Parameters, PlainValidator(Parameters.model_validate, json_schema_input_type=SomeParameters)
+    ]
     t_end: Seconds
     tol: Tolerance = 1e-10
     stop_at: Literal["first_separation"] | None = None
@@ -172,67 +132,30 @@ class NamedCase(Strict):
     @cached_property
     def spec(self) -> CaseSpec:
         """What is simulated; raises `ParameterError` with places inside the case."""
-        p = self.parameters
-        spans, faults = self._spans()
-        if self.ramps:
-            for fault in ramp_faults(p, self.ramps, poincare=self.record.poincare is not None):
-                inside = fault.path[0] in Parameters.model_fields
-                faults.append(fault.inside(("parameters",)) if inside else fault)
-        raise_faults(faults)
-
-        events = spans.pop(("events",), None)
-        if events is not None and events.last is None:
-            events = (events.start, events.stop)
-        return CaseSpec(
-            parameters=p,
-            t_end=self.t_end,
-            tol=self.tol,
-            stop_at=self.stop_at,
-            windows=tuple((name, window) for (_, name), window in spans.items()),
-            poincare=self.record.poincare,
-            events=events,
-            start=self.start,
-            ramps=self.ramps,
-        )
-
-    def _spans(self) -> tuple[dict[tuple[str, ...], Any], list[Fault]]:
-        """Spans of time that are recorded, by their places in the record, resolved in the run unless
-        they count back from where it stops; and faults of those that are not within it."""
         record = self.record
-        spans: dict[tuple[str, ...], Any] = {}
-        for name, window in record.windows.items():
-            if window is not None:
-                spans["windows", name] = window
-        if record.events:
-            spans["events",] = Span() if record.events is True else record.events
-        faults = []
-        for path, span in spans.items():
-            start, stop = span.ends(0.0, self.t_end)
-            if self.stop_at is not None and span.last is not None and start > 0:
-                continue
-            if 0 <= start < stop <= self.t_end:
-                spans[path] = span.resolved(0.0, self.t_end)
-            else:
-                rule = f"0 <= start={start:g} < stop={stop:g} <= t_end={self.t_end:g}"
-                faults.append(Fault(("record", *path), "", f"must be within the run: {rule}"))
-        return spans, faults
+        raise_faults([*ramp_faults(self.parameters, self.ramps, record.poincare is not None)])
+        windows = tuple((name, x) for name, x in record.windows.items() if x is not None)
+        events = Span() if record.events is True else record.events or None
+        beside = {"windows": windows, "poincare": record.poincare, "events": events}
+        own = {name: getattr(self, name) for name in CaseSpec.model_fields if hasattr(self, name)}
+        return CaseSpec(**own, **beside)
 
     @pydantic.model_validator(mode="after")
     def _consistent(self) -> Self:
-        """Check the rules between the values of the case."""
-        self.spec  # noqa: B018
+        """Check the rules between the values of the case, and names of windows."""
+        self.spec.longest_sections  # noqa: B018
         return self
 
 
 # ---- Figures
 
 
-def _figure(raw: Any) -> Kind:
-    if isinstance(raw, Kind):
+def _figure(raw: Any) -> Kind | None:
+    if raw is None or isinstance(raw, Kind):
         return raw
     from disc_model.figures.kinds import kind_of  # brings in matplotlib
 
-    return kind_of(_as_mapping(raw).get("kind")).model_validate(raw)
+    return kind_of(mapping(raw).get("kind")).model_validate(raw)
 
 
 _KIND = Annotated[
@@ -245,12 +168,16 @@ Figure = Annotated[Kind, PlainValidator(_figure, json_schema_input_type=_KIND)]
 """A figure of any kind; `workflow/schemas/write_schema.py` adds the keys of each kind to the schema."""
 
 
+def _given(figures: dict[str, Kind | None]) -> dict[str, Any]:
+    """The figures that null does not drop."""
+    return {name: plot for name, plot in figures.items() if plot is not None}
+
+
 class FigureEntry(NamedTuple):
     """A figure as lists and reports show it, and what it is drawn from."""
 
     plot: Kind
     inputs: Mapping[str, str]  # names of cases, or of grid studies by their roles
-    category: str
     section: str
     title: str
     caption: str
@@ -264,35 +191,15 @@ def _several(value: Any) -> Any:
     return value if isinstance(value, list | tuple) else [value]
 
 
-def _given(raw: Any) -> Any:
-    """What is given by name, without what null drops."""
-    return (
-        {name: x for name, x in raw.items() if x is not None} if isinstance(raw, Mapping) else raw
-    )
-
-
-def _base(raw: Any) -> dict[str, Any]:
-    """Values of parameters in SI units; raises `ParameterError`."""
-    values = {}
-    faults = []
-    for name, value in _given(_as_mapping(raw)).items():
-        try:
-            if name not in Parameters.model_fields:
-                rule = f"unknown parameter{suggestion(name, [*Parameters.model_fields])}"
-                raise ParameterError(Fault.of((), value, rule))
-            values[name] = (
-                Disc.model_validate(value) if name == "disc" else checked_value(name, value)
-            )
-        except ParameterError as error:
-            faults += [each.inside((str(name),)) for each in error.faults]
-    raise_faults(faults)
-    return values
+def _text(content: Any) -> str:
+    """JSON that is equal for equal content."""
+    return json.dumps(content, sort_keys=True)
 
 
 def _options(raw: Any, info: pydantic.ValidationInfo) -> Any:
     """The options of the quantity; what is given for an unknown one is checked once it is known."""
     name = info.data.get("quantity")
-    return raw if name is None else quantity_of(name).options.model_validate(_as_mapping(raw))
+    return raw if name is None else quantity_of(name).options.model_validate(raw)
 
 
 class Study(Strict):
@@ -300,18 +207,11 @@ class Study(Strict):
 
     study: Name
     title: str = ""
-    base: Annotated[
-        dict[str, Any], PlainValidator(_base, json_schema_input_type=SomeParameters)
-    ] = Field({})
-    figures: Annotated[
-        dict[Name, Figure],
-        BeforeValidator(_given, json_schema_input_type=dict[Name, Figure | None]),
-    ] = Field({})
+    base: Base = Base()
+    figures: Annotated[dict[Name, Figure], AfterValidator(_given)] = Field({})
     tol: Tolerance | None = 1e-10  # of all cases, as `record`
     record: RecordSpec = RecordSpec()
-    cases: Annotated[dict[CaseName, NamedCase], Field(min_length=1)] = Field(
-        {}, validate_default=False
-    )
+    cases: Annotated[dict[Name, NamedCase], Field(min_length=1)] = Field({})
     claims: bool = False  # whether the paper's claims and tables are checked against the cases
     quantity: Annotated[
         str | None,
@@ -334,24 +234,26 @@ class Study(Strict):
     @pydantic.model_validator(mode="after")
     def _consistent(self) -> Self:
         """Check the rules between the parts of the file."""
-        faults: list[Fault] = []
         given = self.model_fields_set
-        if self.quantity is None and (given & GRID_KEYS or not given & {"cases", "studies"}):
-            rule = "is required, unless the file has cases or studies alone"
-            faults.append(Fault(("quantity",), "", rule))
+        alone = not given & GRID_KEYS and given & {"cases", "studies"}
+        rule = "is required, unless the file has cases or studies alone"
+        require((self.has_grid or alone, "quantity", "", rule))
+        if self.has_grid:
+            raise_faults([*self._wrong_axes()])
+            self.case  # noqa: B018
         recorded = {name: spec.longest_sections for name, spec in self.specs.items()}
+        faults = []
         for name, plot in self.figures.items():
+            wrong: Iterable[Fault] = ()
             if isinstance(plot, CasePlot):
-                faults += (fault.inside(("figures", name)) for fault in plot.faults(recorded))
-        raise_faults(faults)
-        if self.grid is not None:
-            own = {
-                name: plot for name, plot in self.plots.items() if plot.study in ("", self.study)
-            }
-            for name, plot in own.items():
-                faults += (fault.inside(("figures", name)) for fault in self._faults_of(plot))
+                wrong = plot.faults(recorded)
+            elif self.has_grid and isinstance(plot, Plot) and plot.study in ("", self.study):
+                wrong = self._faults_of(plot)
+            faults += [fault.inside(("figures", name)) for fault in wrong]
         raise_faults(faults)
         return self
+
+    # ---- Named cases
 
     @property
     def specs(self) -> dict[str, CaseSpec]:
@@ -359,20 +261,126 @@ class Study(Strict):
         return {name: case.spec for name, case in self.cases.items()}
 
     @property
-    def plots(self) -> dict[str, Plot]:
-        """The figures of grids."""
-        return {name: plot for name, plot in self.figures.items() if isinstance(plot, Plot)}
+    def labels(self) -> dict[str, dict[str, str]]:
+        """Titles and places in the paper of the cases, as pages show them."""
+        return {
+            name: {"Title": case.title or name, "Place in the paper": case.reference}
+            for name, case in self.cases.items()
+        }
+
+    # ---- The grid
+
+    @property
+    def has_grid(self) -> bool:
+        """Whether the file has a grid of its own."""
+        return bool(self.quantity)
+
+    @property
+    def of(self) -> Quantity:
+        """The quantity."""
+        return quantity_of(str(self.quantity))
 
     @cached_property
-    def grid(self) -> Grid | None:
-        """The file's own grid; raises `ParameterError` with the faults between its parts."""
-        if self.quantity is None:
-            return None
-        dims = dimensions(self.axes, self.zip, self.discs)
-        quantity = quantity_of(self.quantity)
-        return grid_of(
-            quantity, self.options, self.base, dims, self.where, self.discs, self.points_per_job
-        )
+    def dims(self) -> dict[str, pd.DataFrame]:
+        """Columns by dimension, in the order of the parameters; raises `ParameterError`."""
+        return dimensions(self.axes, self.zip)
+
+    @property
+    def _varied(self) -> list[str]:
+        """What varies, along axes or by the quantity itself."""
+        along = (str(name) for frame in self.dims.values() for name in frame)
+        return [*along, *self.of.varied(self.options)]
+
+    def _wrong_axes(self) -> Iterator[Fault]:
+        """Each parameter must vary once; and only some quantities take another start."""
+        if not self.dims:
+            yield Fault(("axes",), "", "is required: at least one axis or zip")
+        for name in dict.fromkeys(self._varied):
+            if self._varied.count(name) > 1:
+                yield Fault(
+                    ("axes", name), "", "varies twice: in another place, or by the quantity"
+                )
+            if name in PERTURBATIONS and not hasattr(self.options, "start"):
+                yield Fault(("axes", name), "", "the quantity follows no motion from a start")
+
+    @cached_property
+    def points(self) -> pd.DataFrame:
+        """What varies, a row for each point; raises `ParameterError`."""
+        return expand(self.dims, self.where, self.fixed)
+
+    @cached_property
+    def fixed(self) -> dict[str, Any]:
+        """The values of the case that all points have: not of what varies, nor those that something else
+        replaces, nor of a plate that does not stretch."""
+        base = self.base.model_dump(exclude_unset=True)
+        values = {**DEFAULTS, **base}
+        varied = {*self._varied}
+        without = {"stretching"} if values["stretching"] == DEFAULTS["stretching"] else set()
+        if "damping_ratio" in {*varied, *base}:
+            without.add("D_star")
+        if "disc" in {*varied, *base}:
+            without.update((*PLATE, "damping_ratio"))
+            without -= {*base}
+        names = [x for x in Parameters.model_fields if x in values and x not in varied | without]
+        return {name: values[name] for name in names}
+
+    @cached_property
+    def case(self) -> tuple[Parameters, dict[str, Any]]:
+        """The case of the first point that is possible, and what of it varies; raises `ParameterError`,
+        with what is wrong at the first point, if none is."""
+        faults: list[Fault] = []
+        base = {**self.of.unset(self.options), **self.fixed}
+        for point in self.points.to_dict("records"):
+            own = {str(name): x for name, x in point.items() if name in Parameters.model_fields}
+            try:
+                return case_of(base, self.discs, **own), own
+            except ParameterError as error:
+                for each in () if faults else error.faults:
+                    faults.append(each.inside(("axes" if each.path[0] in own else "base",)))
+        raise ParameterError(*(faults or [Fault(("where",), "", "leaves no point")]))
+
+    @property
+    def layout(self) -> dict[str, Any]:
+        """What all points have in common, and the dimensions, for JSON."""
+        used = {*self.points.get("disc", ())}
+        return {
+            "quantity": self.quantity,
+            "options": self.options.model_dump(mode="json"),
+            "base": self.fixed,
+            "discs": {
+                x: disc.model_dump(mode="json") for x, disc in self.discs.items() if x in used
+            },
+            "dims": {dim: frame.to_dict("list") for dim, frame in self.dims.items()},
+        }
+
+    @cached_property
+    def jobs(self) -> dict[str, str]:
+        """What each job computes, as JSON, by the name of its file: a hash of what all have in common,
+        and one of their own points."""
+        codes = {name: column.flags for name, column in self.of.columns.items()}
+        common = {**self.layout, "dims": {}, "code": physics_hash(), "codes": codes}
+        content = content_key(_text(common))
+        size = self.points_per_job or self.of.points_per_job
+        points = np.array(self.points.to_dict("records"))
+        jobs = {}
+        for part in np.array_split(points, math.ceil(len(points) / size)):
+            of_part = part.tolist()
+            jobs[f"{content}-{content_key(_text(of_part))}"] = _text({**common, "points": of_part})
+        return jobs
+
+    @property
+    def motions(self) -> dict[str, str]:
+        """The job of the points whose motions are stored, by the name of its file: all of a small grid, few
+        of a large one; none for some quantities."""
+        motion = self.of.motion
+        if motion is None:
+            return {}
+        few = dict(self.dims)
+        if len(self.points) > ALL_MOTIONS:
+            few = {dim: thinned(frame, motion.number) for dim, frame in self.dims.items()}
+        points = expand(few, self.where, self.fixed).to_dict("records")
+        text = _text({**self.layout, "code": physics_hash(), "points": points})
+        return {content_key(text): text} if points else {}
 
     @property
     def attrs(self) -> dict[str, str]:
@@ -383,49 +391,39 @@ class Study(Strict):
         return attrs
 
     @property
-    def labels(self) -> dict[str, dict[str, str]]:
-        """Titles and places in the paper of the cases, as pages show them."""
-        return {
-            name: {"Title": case.title or name, "Place in the paper": case.reference}
-            for name, case in self.cases.items()
-        }
-
-    @property
     def page(self) -> dict[str, Any]:
         """What the explorer shows of the grid: units of figures, dimensions across and up in the first map,
         and what stored motions are."""
-        assert self.grid is not None
         units: dict[str, str] = {}
         axes: list[str] = []
         for plot in reversed([*self.plots.values()]):
             units |= plot.units
             if {"x", "y"} <= plot.axes.keys():
                 axes = [plot.axes["x"], plot.axes["y"]]
-        motion = self.grid.quantity.motion
-        stored = (
-            {"motion": motion.text, "motion_by": dict(motion.by)}
-            if motion
-            else {"motion": "", "motion_by": {}}
-        )
-        return {"units": units, "axes": axes, **stored}
+        motion = self.of.motion
+        return {"units": units, "axes": axes, "motion": motion.text if motion else ""}
 
     # ---- Figures
 
+    @property
+    def plots(self) -> dict[str, Plot]:
+        """The figures of grids."""
+        return {name: plot for name, plot in self.figures.items() if isinstance(plot, Plot)}
+
     def _faults_of(self, plot: Plot) -> Iterable[Fault]:
         """What keeps a figure from showing the grid of this study."""
-        assert self.grid is not None
         quantities = plot.shows.quantities
         if quantities and self.quantity not in quantities:
             return [Fault.of(("kind",), plot.kind, f"needs the quantity {quantities[0]}")]
         along: dict[str, list[Any]] = {}
-        for dim, frame in self.grid.dims.items():
-            rows = [*frame.itertuples(index=False, name=None)]
-            along[dim] = [row[0] for row in rows] if [*frame] == [dim] else rows
-        endless = [name for name in plot.axes.values() if math.inf in along.get(name, [])]
-        if endless:
-            return [Fault(("x",), endless[0], "has the value inf, which no axis can show")]
+        for dim, frame in self.dims.items():
+            alone = [*frame] == [dim]
+            along[dim] = [*frame[dim]] if alone else [*frame.itertuples(index=False, name=None)]
+        for name in plot.axes.values():
+            if math.inf in along.get(name, ()):
+                return [Fault(("x",), name, "has the value inf, which no axis can show")]
         variables = {}
-        columns = self.grid.quantity.columns
+        columns = self.of.columns
         for name, column in columns.items():
             variables[name] = {dim: along.get(dim, []) for dim in (*along, *column.dims)}
         classes = [name for name, column in columns.items() if column.flags]
@@ -435,46 +433,37 @@ class Study(Strict):
         """All figures of the file and of grids, by the study in whose folder they are and their names."""
         figures = {}
         for name, plot in self.figures.items():
-            if isinstance(plot, Plot):
-                figures[self.study, name] = grids[plot.study or self.study]._entry(name, plot)
-            elif isinstance(plot, CasePlot):
-                figures[self.study, name] = self._entry_of_cases(name, plot)
+            owner = grids[plot.study or self.study] if isinstance(plot, Plot) else self
+            figures[self.study, name] = owner._entry(name, plot)
         for study in grids.values():
             for name, grid_plot in study.plots.items():
                 figures.setdefault((study.study, name), study._entry(name, grid_plot))
         return figures
 
-    def _entry(self, name: str, plot: Plot) -> FigureEntry:
-        """A figure of the grid, whose caption states the values that differ from Table 1 and do not vary."""
-        assert self.grid is not None
+    def _entry(self, name: str, plot: Kind) -> FigureEntry:
+        """A figure, whose caption states what its cases are: the values that differ from Table 1 and do not
+        vary."""
+        if isinstance(plot, CasePlot):
+            cases = [self.specs[case].parameters for case in plot.cases]
+            values = "; ".join(dict.fromkeys(values_text(dict(p)) for p in cases))
+            modes = " and ".join(
+                IN_WORDS[each] for each in sorted({p.normalization for p in cases})
+            )
+            title = plot.title or name
+            caption = (
+                f"{plot.caption or f'{title}:'} {values}; everything else as in Table 1; {modes}."
+            )
+            titles = {case: self.cases[case].title for case in plot.cases}
+            inputs = {case: case for case in plot.cases}
+            return FigureEntry(plot, inputs, plot.section or plot.case, title, caption, titles)
+        assert isinstance(plot, Plot)
         title = plot.title or f"{self.title or self.study}: {name}"
-        stated = {name: x for name, x in self.grid.fixed.items() if x or name not in REQUIRED}
+        stated = {name: x for name, x in self.fixed.items() if x or name not in ("N", "Omega")}
         values = values_text(stated, factors_of(plot.units))
         source = f"the grid study {self.study}" + (f", with {values}" if values else "")
-        return FigureEntry(
-            plot=plot,
-            inputs={"study": self.study, **dict(sorted(plot.overlays.items()))},
-            category="Figures" if plot.section else "Maps and curves",
-            section=plot.section,
-            title=title,
-            caption=f"{plot.caption} From {source}.".strip(),
-        )
-
-    def _entry_of_cases(self, name: str, plot: CasePlot) -> FigureEntry:
-        """A figure of named cases, whose caption states their parameters."""
-        parameters = [self.specs[case].parameters for case in plot.cases]
-        values = "; ".join(dict.fromkeys(values_text(dict(p)) for p in parameters))
-        modes = " and ".join(MODES[each] for each in sorted({p.normalization for p in parameters}))
-        title = plot.title or name
-        return FigureEntry(
-            plot=plot,
-            inputs={case: case for case in plot.cases},
-            category="Figures",
-            section=plot.section or plot.case,
-            title=title,
-            caption=f"{plot.caption or f'{title}:'} {values}; everything else as in Table 1; {modes}.",
-            titles={case: self.cases[case].title for case in plot.cases if self.cases[case].title},
-        )
+        inputs = {"study": self.study, **dict(sorted(plot.overlays.items()))}
+        caption = f"{plot.caption} From {source}.".strip()
+        return FigureEntry(plot, inputs, plot.section, title, caption)
 
     # ---- Further files
 
@@ -483,47 +472,27 @@ class Study(Strict):
     ) -> tuple[dict[str, Study], tuple[str, ...]]:
         """Studies of all grids, also those that only figures show, and the names of those of this file and
         the files it names."""
-        paths: dict[str, Path] = {}
-        for pattern in self.studies:
-            paths.update((path.stem, path) for path in _matching(pattern, folders))
-        grids = {self.study: self} if self.grid is not None else {}
-        requested = (*grids, *paths)
-        for name in sorted(self._shown_studies().difference(requested)):
-            paths.update(
-                (path.stem, path) for path in _matching(f"{name}.yaml", folders) if path.is_file()
-            )
-        grids.update((name, self._grid_of(path)) for name, path in paths.items())
+        named = [load_study(path) for each in self.studies for path in _matching(each, folders)]
+        own = [self] if self.has_grid else []
+        grids = {study.study: study for study in (*own, *named)}
+        wrong = [study.study for study in named if study.cases or study.studies]
+        if wrong or len(grids) < len(own + named):
+            rule = "must be files of grids alone, each of another study"
+            raise StudyError(Fault.of(("studies",), wrong, rule), source=self.study)
+        asked = tuple(grids)
+        for plot in self.plots.values():
+            for name in {plot.study, *plot.overlays.values()} - {"", *grids}:
+                [path] = _matching(f"{name}.yaml", folders)
+                if path.is_file():
+                    grids[name] = load_study(path)
         faults = []
-        for owner in (self, *(grids[name] for name in sorted({*requested} - {self.study}))):
+        for owner in {self.study: self, **{name: grids[name] for name in asked}}.values():
             for figure, plot in owner.plots.items():
                 for fault in _misfits(plot, owner.study, grids):
                     faults.append(f"{owner.study}: {fault.inside(('figures', figure))}")
         if faults:
             raise StudyError(*faults, source="grid studies")
-        return grids, requested
-
-    def _shown_studies(self) -> set[str]:
-        """Names of the studies that figures name."""
-        names = [
-            name for plot in self.plots.values() for name in (plot.study, *plot.overlays.values())
-        ]
-        return {*filter(None, names)}
-
-    def _grid_of(self, path: Path) -> Study:
-        """The study of another file, which is a grid alone."""
-        study = load_study(path)
-        wrong = {
-            "must be the name of the file": study.study != path.stem,
-            "is the name of another folder of results": study.study == self.study,
-            "must be a grid alone": study.grid is None or study.cases or study.studies,
-            "must have no figures of other studies": any(
-                plot.study not in ("", study.study) for plot in study.plots.values()
-            ),
-        }
-        faults = [f"study={study.study!r}: {rule}" for rule, broken in wrong.items() if broken]
-        if faults:
-            raise StudyError(*faults, source=str(path))
-        return study
+        return grids, asked
 
 
 def _matching(pattern: str, folders: Sequence[Path]) -> list[Path]:
@@ -536,38 +505,25 @@ def _misfits(plot: Plot, owner: str, grids: Mapping[str, Study]) -> Iterator[Fau
     """What keeps a figure in the file of a study from showing grids of other files."""
     named: dict[tuple[str, ...], str] = {("study",): plot.study or owner}
     named |= {("overlays", role): name for role, name in plot.overlays.items()}
-    unknown = [(path, name) for path, name in named.items() if name not in grids]
-    for path, name in unknown:
-        key = f"; name the file of another study by the key studies: [{name}.yaml]"
-        yield Fault.of(path, name, f"no such study{suggestion(name, sorted(grids))}{key}")
-    if unknown:
-        return
-    study = grids[plot.study or owner]
+    for path, name in named.items():
+        if name not in grids:
+            key = f"; name the file of another study by the key studies: [{name}.yaml]"
+            rule = f"no such study{suggestion(name, sorted(grids))}{key}"
+            yield Fault.of(path, name, rule)
+            return
     if plot.study not in ("", owner):
-        yield from study._faults_of(plot)
+        yield from grids[plot.study]._faults_of(plot)
     for role in plot.overlays.keys() & plot.roles.keys():
         other = grids[plot.overlays[role]]
         plane = {getattr(other.options, name, None) for name in ("x", "y")} - {None}
-        rules = {
-            f"must be a study of the quantity {plot.roles[role].quantity}": (
-                other.quantity != plot.roles[role].quantity
-            ),
-            f"must be computed for the same {NORM}": not _normalizations(study)
-            <= _normalizations(other),
-            "must be computed in the plane of the figure": {"x", "y"} <= plot.axes.keys()
-            and not plane <= {*plot.axes.values()},
-        }
-        for rule, broken in rules.items():
-            if broken:
-                yield Fault.of(("overlays", role), other.study, rule)
-
-
-def _normalizations(study: Study) -> set[str]:
-    """The normalisations of the modes in a grid."""
-    assert study.grid is not None
-    return (
-        {*study.grid.points[NORM]} if NORM in study.grid.points else {study.grid.case.normalization}
-    )
+        needed = plot.roles[role].quantity
+        broken = ""
+        if other.quantity != needed:
+            broken = f"must be a study of the quantity {needed}"
+        elif {"x", "y"} <= plot.axes.keys() and not plane <= {*plot.axes.values()}:
+            broken = "must be computed in the plane of the figure"
+        if broken:
+            yield Fault.of(("overlays", role), other.study, broken)
 
 
 # ---- From files to studies
@@ -575,37 +531,29 @@ def _normalizations(study: Study) -> set[str]:
 
 def load_study(*paths: str | Path) -> Study:
     """Read and check study files, later ones laid over earlier ones, but not the files that they name."""
-    return study_from_config(read_files(*paths), paths)
+    files = [Path(path) for path in paths]
+    contents = [mapping(read_file(file)) for file in files]
+    return study_from_config(reduce(inherit, contents), files)
 
 
-def read_files(*paths: str | Path) -> Any:
-    """The content of study files, later ones laid over earlier ones."""
-    return reduce(
-        lambda below, above: inherit(mapping(below), mapping(above)),
-        map(read_file, map(Path, paths)),
-    )
-
-
-def study_from_config(config: Any, files: Iterable[str | Path]) -> Study:
+def study_from_config(config: Any, files: Sequence[Path]) -> Study:
     """The study of merged configuration files, such as Snakemake's."""
-    paths = [Path(file) for file in files]
-    folder = paths[-1].parent if paths else Path()
-    return parse_study(config, folder, ", ".join(map(str, paths)) or "study")
+    folder = files[-1].parent if files else Path()
+    return parse_study(config, folder, ", ".join(map(str, files)) or "study")
 
 
 def parse_study(raw: Any, folder: Path, source: str = "study") -> Study:
     """The study of the mapping that a file holds, with tables of discs from a folder."""
     try:
-        return Study.model_validate(_inherited(_with_discs(raw, folder)))
+        return Study.model_validate(_with_discs(_inherited(mapping(raw)), folder))
     except ParameterError as error:
         shared = [fault for fault in error.faults if fault.path[:1] != ("cases",)]
         raise StudyError(*(shared or error.faults), source=source) from None
 
 
-def _inherited(raw: Any) -> Any:
-    """The content of a file, in which each case has what it inherits."""
-    if not isinstance(raw, Mapping):
-        return raw
+def _inherited(raw: Mapping[str, Any]) -> dict[str, Any]:
+    """The content of a file, in which each case has what it inherits, options are a mapping, and discs along
+    an axis that `discs` does not name stand for themselves."""
     content = dict(raw)
     keys = {"base": "parameters", "record": "record", "tol": "tol"}
     shared = {inner: content[key] for key, inner in keys.items() if content.get(key) is not None}
@@ -617,35 +565,22 @@ def _inherited(raw: Any) -> Any:
         }
     if content.get("quantity") is not None:
         content.setdefault("options", {})
-    return content
+    discs = dict(mapping(content.get("discs")))
+    for group in (content.get("axes"), *_several(content.get("zip"))):
+        for name in _several(mapping(group).get("disc", [])):
+            discs.setdefault(name, name)
+    return {**content, "discs": discs} if discs else content
 
 
-def _with_discs(raw: Any, folder: Path) -> Any:
+def _with_discs(raw: Any, folder: Path, *path: str) -> Any:
     """A file's content with discs in place of the names of their tables: recomputation depends on a
-    table's content. Along an axis, a table that `discs` does not name stands for itself."""
-
-    def read(value: Any, path: tuple[str, ...]) -> Any:
-        if isinstance(value, Mapping):
-            return {key: read(part, (*path, str(key))) for key, part in value.items()}
-        named = path[:-1] == ("discs",) or path[-2:] in (("base", "disc"), ("parameters", "disc"))
-        if not (named and isinstance(value, str)):
-            return value
-        try:
-            return disc_of_table(folder / value).model_dump(mode="json", exclude_none=True)
-        except ParameterError as error:
-            raise ParameterError(*(Fault(path, "", str(fault)) for fault in error.faults)) from None
-
-    content = dict(mapping(raw))
-    varied = [
-        mapping(group).get("disc") for group in (content.get("axes"), *_several(content.get("zip")))
-    ]
-    named = {
-        name: name
-        for axis in varied
-        if isinstance(axis, list)
-        for name in axis
-        if isinstance(name, str)
-    }
-    if named:
-        content["discs"] = {**named, **mapping(content.get("discs"))}
-    return read(content, ()) if isinstance(raw, Mapping) else raw
+    table's content."""
+    if isinstance(raw, Mapping):
+        return {key: _with_discs(part, folder, *path, str(key)) for key, part in raw.items()}
+    named = path[:-1] == ("discs",) or path[-2:] in (("base", "disc"), ("parameters", "disc"))
+    if not (named and isinstance(raw, str)):
+        return raw
+    try:
+        return disc_of_table(folder / raw).model_dump(mode="json", exclude_none=True)
+    except ParameterError as error:
+        raise ParameterError(*(Fault(path, "", str(fault)) for fault in error.faults)) from None

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 import xarray as xr
-from pydantic import Field
 
 from disc_model.arrays import Array
 from disc_model.data.variables import OF_QUANTITIES, value_with_unit
@@ -26,12 +25,17 @@ from disc_model.studies.quantity import (
     quantity,
     values_between,
 )
-from disc_model.units import Count, Finite, Positive, Seconds, Tolerance, Unit
+from disc_model.units import Finite, Positive, Seconds, Tolerance, Unit
 
 if TYPE_CHECKING:
     from disc_model.stability.continuation import Branch
     from disc_model.stability.cycle import FloquetResult
 
+EVALUATED = 2.0  # s, the last stretch at a value, over which the range is taken
+LONGEST = 0.05  # arclength of the longest step along a branch
+MOST_POINTS = 300  # of a branch, in each direction, special points included
+MOST_BRANCHES = 12
+MOST_RELEASES = 4  # of a cycle that is followed
 SAME = np.array([2e-4, 0.4])
 """Greatest differences of the logarithms of period and range for two cycles of one branch at one value. Periods
 distinguish branches; ranges between points of a steep branch are known roughly."""
@@ -58,11 +62,6 @@ def branches(
     sweep_from: Annotated[Finite | None, Unit(of="name")] = None,
     dwell: Seconds,
     max_dwell: Seconds = 480.0,
-    evaluation_time: Seconds = 2.0,
-    releases: Annotated[Count, Field(ge=1, le=100)] = 4,
-    max_step: Positive = 0.05,
-    max_points: Annotated[Count, Field(ge=2, le=10_000)] = 300,
-    max_branches: Annotated[Count, Field(ge=1, le=1000)] = 12,
     tol: Tolerance = 1e-10,
 ) -> xr.Dataset:
     """Branches of stable and unstable cycles against one parameter, by continuation, and a sweep up and down.
@@ -75,11 +74,6 @@ def branches(
     sweep_from : value at which the rising sweep begins; the least one if not given
     dwell : time at each value, doubled until the motion has settled
     max_dwell : longest time at a value
-    evaluation_time : length of the last stretch at a value, over which the range is taken
-    releases : greatest number of releases of a cycle that is followed
-    max_step : arclength of the longest step along a branch
-    max_points : most points of a branch, in each direction, special points included
-    max_branches : room for that many branches
     tol : tolerance of simulations: error of event times after a second of motion
 
     Examples
@@ -102,67 +96,66 @@ def branches(
         swept[variable] = columns[variable].empty((2, len(values)))
     # leaves room for special points between those computed: as a step turns by 26 degrees at most, at least six
     # lie from fold to fold; with other bifurcations there is one among nine to eighteen points
-    computed = max(2, 5 * max_points // 6)
-    steps = StepControl(longest=max_step, max_points=computed, beyond=True)
+    steps = StepControl(longest=LONGEST, max_points=5 * MOST_POINTS // 6, beyond=True)
     rows: list[dict[str, Any]] = []
     failures = 0
     left_out = 0
 
-    def follow(cycle: FloquetResult, *, reached: bool) -> None:
-        """Continue a cycle in both directions, unless a known branch passes there: the one near the
-        static start, or one that a motion reached."""
+    def follow(cycle: FloquetResult, **how: Any) -> None:
+        """Continue a cycle in both directions, unless a known branch passes there."""
         nonlocal failures, left_out
         assert cycle.state is not None
         size = extremes_of_cycle(cycle.parameters, cycle.state, cycle.period).range
         value = cycle.parameters.numbers[name]
         if any(_passes(row, value, cycle.period, size) for row in rows):
             return
-        if len(rows) >= max_branches:
+        if len(rows) >= MOST_BRANCHES:
             left_out += 1
             return
-        how: dict[str, Any] = {"steps": steps}
-        if reached:
-            how |= {"guess": cycle.state, "releases": cycle.releases}
+        ends = (values[0], values[-1])
         try:
-            branch = continue_cycle(cycle.parameters, name, (values[0], values[-1]), **how)
+            branch = continue_cycle(cycle.parameters, name, ends, steps=steps, **how)
         except NUMERICAL:
             failures += 1
         else:
             rows.extend(_stretches(branch, cycle.releases))
 
-    message = ""
+    remarks = []
     lowest = 0 if sweep_from is None else int(np.searchsorted(values, sweep_from))
-    stays = sweep(case, name, values, dwell, max_dwell, evaluation_time, tol, lowest)
+    stays = sweep(case, name, values, dwell, max_dwell, EVALUATED, tol, lowest)
     for (way, i), result, late, reached in stays:
         if late is None:
-            message = f"{value_with_unit(name, values[i])}: {result.message}"
+            remarks.append(f"{value_with_unit(name, values[i])}: {result.message}")
             break
         swept["sweep_range"][way, i] = late.range
         swept["sweep_separation_rate"][way, i] = late.separation_rate
-        settled = columns["sweep_settled"].flags.index(reached.settling.answer)
-        swept["sweep_settled"][way, i] = settled
+        answer = reached.settling.answer
+        swept["sweep_settled"][way, i] = columns["sweep_settled"].flags.index(answer)
         if way == 0 or i < lowest:
             near_start = find_cycle(result.parameters)
             if near_start.state is not None:
-                follow(near_start, reached=False)
-        if reached.near is not None and reached.near.cycle.releases <= releases:
-            follow(reached.near.cycle, reached=True)
-    sliding = [steady_sliding(case.replace(**{name: x})).growth_rate for x in values]
-    answer: dict[str, Any] = {
+                follow(near_start)
+        if reached.near is not None and reached.near.cycle.releases <= MOST_RELEASES:
+            cycle = reached.near.cycle
+            follow(cycle, guess=cycle.state, releases=cycle.releases)
+    found_values: dict[str, Any] = {
         **listed(rows),
         **swept,
-        "status": "failed" if message else "ok",
+        "status": "failed" if remarks else "ok",
         "n_branches": len(rows),
         "n_continuation_failures": failures,
-        "sliding_growth_rate": sliding,
+        "sliding_growth_rate": [
+            steady_sliding(case.replace(**{name: x})).growth_rate for x in values
+        ],
     }
-    remark = ""
     if left_out:
-        cycles = counted(left_out, "cycle")
-        remark = f"{cycles} of further branches, for which there is no room: raise max_branches"
-    own = {"branch": range(max_branches), "branch_point": range(2 * max_points)}
-    said = "; ".join(filter(None, [message, remark]))
-    return found("branches", answer, said, direction=DIRECTIONS, sweep_value=values, **own)
+        remarks.append(
+            f"{counted(left_out, 'cycle')} of further branches, for which there is no room"
+        )
+    own: dict[str, Any] = {"branch": range(MOST_BRANCHES), "branch_point": range(2 * MOST_POINTS)}
+    message = "; ".join(remarks)
+    own |= {"direction": DIRECTIONS, "sweep_value": values}
+    return found("branches", found_values, message, **own)
 
 
 def _stretches(branch: Branch, releases: int) -> list[dict[str, Any]]:

@@ -17,20 +17,25 @@ from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 import xarray as xr
-from pydantic import Field
 
 from disc_model.analysis.frequency_jumps import frequency_jumps
 from disc_model.arrays import Array, Mask
-from disc_model.data.variables import OF_QUANTITIES, message_of
+from disc_model.data.variables import message_of
 from disc_model.parameters import Parameters
 from disc_model.studies.quantity import BETWEEN, NUMERICAL, found, listed, quantity, values_between
-from disc_model.units import Count, CycleTolerance, Finite, Positive, Speed, Unit
+from disc_model.units import CycleTolerance, Finite, Speed, Unit
 
 LEAST_SPEEDS = 3
 """Least number of speeds in a window by which the effect of a crossing is known."""
 LIKE = 0.75
 """Likeness from which a multiplier belongs to a mode. A real multiplier, in a resonance, resembles the
 conjugate as much, and has 0.5 at most."""
+MODES, CROSSINGS = 24, 100
+"""Room for that many modes, the lowest in frequency, and crossings."""
+HALF_BANDWIDTH = 1.0
+"""Greatest difference of the frequencies that meet, in the window about a crossing, Hz."""
+MIN_RISE = 0.01
+"""Least rise of a growth rate in the window, above those at its ends, that counts, 1/s."""
 
 
 @quantity(own=("Omega",), rules=BETWEEN)
@@ -39,23 +44,18 @@ def campbell(
     *,
     bounds: Annotated[tuple[Finite, Finite], Unit("rad/s")],
     step: Speed,
-    modes: Annotated[Count, Field(ge=1, le=1000)] = 24,
-    half_bandwidth: Annotated[Positive, Unit("Hz")] = 1.0,
-    min_rise: Annotated[Positive, Unit("1/s")] = 0.01,
-    max_crossings: Annotated[Count, Field(ge=1, le=10_000)] = 100,
     tol: CycleTolerance = 1e-12,
 ) -> xr.Dataset:
     """Frequencies and growth rates of steady sliding and of the stick-slip cycle against the speed, and their
     crossings with multiples of the stick-slip and rotation frequencies.
 
+    The effect of a crossing is what growth rates do in a window about it, in which the frequencies differ by 1 Hz at
+    most: a rise above those at its ends counts from 0.01/s on.
+
     Parameters
     ----------
     bounds : lowest and highest speed
     step : between speeds
-    modes : room for that many modes, the lowest in frequency
-    half_bandwidth : greatest difference of the frequencies that meet, in the window about a crossing
-    min_rise : least rise of a growth rate in the window, above those at its ends, that counts
-    max_crossings : room for that many crossings
     tol : tolerance of cycles: relative residual of the return map
 
     Examples
@@ -76,13 +76,12 @@ def campbell(
         rows.append(row)
         messages.append(message)
     values: dict[str, Any] = dict(listed(rows))
-    own: dict[str, Any] = {"Omega": speeds, "mode": range(1, modes + 1)}
-    along = found("campbell", values, messages, **own)
-    crossings = sorted(_crossings(along, half_bandwidth, min_rise), key=_place)
+    own: dict[str, Any] = {"Omega": speeds, "mode": range(1, MODES + 1)}
+    crossings = [*_crossings(found("campbell", values, messages, **own))]
+    crossings.sort(key=lambda row: (row["Omega"], row["mode"], row["multiple"]))
     values["n_crossings"] = len(crossings)
-    for name, column in listed(crossings).items():
-        values[f"crossing_{name}"] = column
-    return found("campbell", values, messages, **own, crossing=range(1, max_crossings + 1))
+    values |= {f"crossing_{name}": column for name, column in listed(crossings).items()}
+    return found("campbell", values, messages, **own, crossing=range(1, CROSSINGS + 1))
 
 
 def _at_speed(case: Parameters, tol: float) -> tuple[dict[str, Any], str]:
@@ -90,7 +89,6 @@ def _at_speed(case: Parameters, tol: float) -> tuple[dict[str, Any], str]:
     from disc_model.stability.frequencies import frequencies, may_be_near
 
     cycle, modes, (frequency, growth_rate, mac) = frequencies(case, tol=tol)
-    kinds = OF_QUANTITIES["campbell"]["columns"]["mode_kind"].flags
     values = {
         "status": cycle.status.value,
         "growth_rate": cycle.growth_rate,
@@ -98,7 +96,7 @@ def _at_speed(case: Parameters, tol: float) -> tuple[dict[str, Any], str]:
         "rotation_frequency": case.Omega / (2 * math.pi),
         "n_modes": len(modes.frequency),
         "largest_sliding_growth_rate": cycle.sliding.growth_rate,
-        "mode_kind": np.where(modes.diameters < 0, kinds.index("slider"), kinds.index("disc")),
+        "mode_kind": ["slider" if diameters < 0 else "disc" for diameters in modes.diameters],
         "diameters": np.maximum(modes.diameters, 0),
         "forward_wave_fraction": modes.forward,
         "sliding_frequency": modes.frequency,
@@ -112,17 +110,6 @@ def _at_speed(case: Parameters, tol: float) -> tuple[dict[str, Any], str]:
 
 
 # ---- Crossings
-
-
-class Line(NamedTuple):
-    """A multiple of a frequency over the speed, Hz: where there is one, and joined over gaps, which the
-    window of a crossing may have; and the steps at which it jumps."""
-
-    kind: str
-    multiple: float
-    frequency: Array
-    joined: Array
-    jumps: Mask
 
 
 class Rates(NamedTuple):
@@ -140,13 +127,7 @@ class Rates(NamedTuple):
         return "not_near" if self.away[speeds].any() else "no_cycle"
 
 
-def _place(crossing: dict[str, Any]) -> tuple[float, int, float]:
-    return crossing["Omega"], crossing["mode"], crossing["multiple"]
-
-
-def _crossings(
-    along: xr.Dataset, half_bandwidth: float, min_rise: float
-) -> Iterator[dict[str, Any]]:
+def _crossings(along: xr.Dataset) -> Iterator[dict[str, Any]]:
     """All crossings over the speed, mode by mode, with n f_s, (n + 1/2) f_s and l f_Omega, l up to that of
     modes."""
     away = along["near_motion"] == 0
@@ -154,14 +135,12 @@ def _crossings(
     near = along.where(~away)
     speeds = along["Omega"].values
     releases = near["stick_slip_frequency"].values
+    # over gaps, which the window of a crossing may have
     joined = near["stick_slip_frequency"].interpolate_na("Omega").values
     jumps = frequency_jumps(speeds, releases)
     growth = near["cycle_growth_rate"].values
     rates = Rates(growth, near["growth_rate"].values, away.values, jumps)
-    rotation = []
-    for l in range(1, int(along["diameters"].max()) + 1):
-        turns = l * along["rotation_frequency"].values
-        rotation.append(Line("rotation", l, turns, turns, np.zeros_like(jumps)))
+    turns = along["rotation_frequency"].values
     for i, mode in enumerate(along["mode"].values):
         sliding = along["sliding_frequency"].values[:, i]
         on_cycle = near["cycle_frequency"].values[:, i]
@@ -171,21 +150,24 @@ def _crossings(
         most = 0
         if np.isfinite(releases).any():
             most = math.floor(2 * np.nanmax(of_mode) / np.nanmin(releases)) + 1
-        halves = np.arange(1, most + 1) / 2
-        lines = [Line("stick_slip", half, half * releases, half * joined, jumps) for half in halves]
-        for line in (*lines, *rotation):
-            detuning = of_mode - line.joined
-            for index, part in _changes_of_sign(of_mode - line.frequency, line.jumps):
+        lines = [
+            ("stick_slip", half, releases, joined, jumps) for half in np.arange(1, most + 1) / 2
+        ]
+        for l in range(1, int(along["diameters"].max()) + 1):
+            lines.append(("rotation", l, turns, turns, np.zeros_like(jumps)))
+        for kind, multiple, frequency, whole, at_jump in lines:
+            detuning = of_mode - multiple * whole
+            for index, part in _changes_of_sign(of_mode - multiple * frequency, at_jump):
                 # the largest step by which the window has enough speeds, by the slope at the crossing
                 slope = np.diff(detuning)[index] / np.diff(speeds)[index]
                 yield {
                     "Omega": _between(speeds, index, part),
-                    "frequency": _between(line.frequency, index, part),
+                    "frequency": _between(multiple * frequency, index, part),
                     "mode": int(mode),
-                    "line": line.kind,
-                    "multiple": float(line.multiple),
-                    "step": 2 * half_bandwidth / abs(float(slope)) / LEAST_SPEEDS,
-                    **_effect_of(detuning, index, rates, half_bandwidth, min_rise),
+                    "line": kind,
+                    "multiple": float(multiple),
+                    "step": 2 * HALF_BANDWIDTH / abs(float(slope)) / LEAST_SPEEDS,
+                    **_effect_of(detuning, index, rates),
                 }
 
 
@@ -214,41 +196,41 @@ def _frequency_of(speeds: Array, sliding: Array, on_cycle: Array, mac: Array) ->
     return sliding + np.interp(speeds, speeds[known], more[known])
 
 
-def _effect_of(
-    detuning: Array, index: int, rates: Rates, half_bandwidth: float, min_rise: float
-) -> dict[str, Any]:
+def _effect_of(detuning: Array, index: int, rates: Rates) -> dict[str, Any]:
     """The effect of a crossing after the speed of an index, as far as it is known, by the growth
     rates in the window, compared with those at its ends."""
     growth, leading, _, jumps = rates
     beside = slice(index, index + 2)
     if not np.isfinite(leading[beside]).all():
         return {"effect": rates.missing(beside)}
-    outside = np.flatnonzero(~(np.abs(detuning) <= half_bandwidth))  # nan lies outside
+    outside = np.flatnonzero(~(np.abs(detuning) <= HALF_BANDWIDTH))  # nan lies outside
     first = outside.max(initial=-1, where=outside <= index)
     last = outside.min(initial=len(detuning), where=outside > index)
-    within = slice(first + 1, last)
     leaves_scan = first < 0 or last >= len(detuning)
     if last - first - 1 < LEAST_SPEEDS and not leaves_scan:
         return {"effect": "unresolved"}
-    highest = math.nan
-    if np.isfinite(leading[within]).any():
-        highest = float(np.nanmax(leading[within]))
+    within = slice(first + 1, last)
+    highest = float(np.fmax.reduce(leading[within]))
+    effect = ""
     whole = slice(max(first, 0), last + 1)
     if not np.isfinite(leading[whole]).all():
-        return {"effect": rates.missing(whole), "growth_rate": highest}
-    if leaves_scan:
-        return {"effect": "beyond_scan", "growth_rate": highest}
-    rises = growth[within].max(axis=0) - growth[[first, last]].max(axis=0)
-    if jumps[first:last].any() or not np.isfinite(rises).any():
-        return {"effect": "unresolved", "growth_rate": highest}
+        effect = rates.missing(whole)
+    elif leaves_scan:
+        effect = "beyond_scan"
+    else:
+        rises = growth[within].max(axis=0) - growth[[first, last]].max(axis=0)
+        if jumps[first:last].any() or not np.isfinite(rises).any():
+            effect = "unresolved"
+    if effect:
+        return {"effect": effect, "growth_rate": highest}
     rise = float(np.nanmax(rises))
     at_ends = max(leading[first], leading[last])
     effect = "no_rise"
     if highest > 0 >= at_ends:
         effect = "destabilises"
-    elif highest - at_ends >= min_rise:
+    elif highest - at_ends >= MIN_RISE:
         effect = "rises"
-    elif rise >= min_rise:
+    elif rise >= MIN_RISE:
         effect = "mode_rises"
     growing = int(np.nanargmax(rises)) + 1
     return {"effect": effect, "growth_rate": highest, "rise": rise, "growing_mode": growing}

@@ -5,7 +5,7 @@ be several.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from itertools import pairwise
 from typing import TYPE_CHECKING, Annotated, Any
@@ -17,11 +17,12 @@ from pydantic import AfterValidator, BeforeValidator, Field
 from disc_model.data.variables import value_with_unit
 from disc_model.parameters import Parameters
 from disc_model.studies.quantity import BETWEEN, found, listed, quantity, values_between
-from disc_model.units import Count, Finite, Seconds, Speed, Tolerance, Unit
+from disc_model.units import Finite, Seconds, Speed, Tolerance, Unit
 
 if TYPE_CHECKING:
     from disc_model.stability.follower import OutcomeResult
 
+MOST_CROSSINGS = 12
 PRECISION = 0.1
 """Width to which crossings are bisected unless another is asked for, rad/s."""
 Horizons = Annotated[
@@ -36,11 +37,11 @@ Horizons = Annotated[
 """A horizon, or several."""
 
 
-def _ratio(step: float, precision: float | None) -> float:
+def _ratio(options: Any) -> float:
     """The step as a multiple of the precision, for which the largest part of the step up to `PRECISION` stands."""
-    if precision is None:
-        return math.ceil(step / PRECISION - 1e-9)
-    return step / precision
+    precision = options.precision
+    parts = math.ceil(options.step / PRECISION - 1e-9)
+    return parts if precision is None else options.step / precision
 
 
 @quantity(
@@ -50,7 +51,7 @@ def _ratio(step: float, precision: float | None) -> float:
         *BETWEEN,
         (
             lambda o: (
-                0.5 < (r := _ratio(o.step, o.precision)) < math.inf and abs(r - round(r)) <= 1e-6
+                round(_ratio(o)) > 0 and math.isclose(_ratio(o), round(_ratio(o)), rel_tol=1e-6)
             ),
             "step={0.step:.6g} rad/s must be a multiple of precision={0.precision:.6g} rad/s",
         ),
@@ -63,15 +64,13 @@ def critical_speed(
     *,
     step: Speed = 1.0,
     precision: Speed | None = None,
-    max_crossings: Annotated[Count, Field(ge=1, le=10_000)] = 12,
-    early_end: bool = True,
-    extrapolate: bool = True,
     tol: Tolerance = 1e-10,
 ) -> xr.Dataset:
     """The lowest speed of a scan with separation within a horizon, and all speeds where separation begins or
     ends, by bisection.
 
-    Separation in a range of speeds narrower than `step` can be overlooked.
+    Separation in a range of speeds narrower than `step` can be overlooked. Slow departures from cycles are
+    extrapolated, which halves the time; separations after them are not timed.
 
     Parameters
     ----------
@@ -80,10 +79,6 @@ def critical_speed(
     step : of the scan
     precision : width to which crossings are bisected, of which `step` must be a multiple; if not given, 0.1 or the next
         smaller part of `step`
-    max_crossings : room for that many crossings
-    early_end : whether a simulation ends as soon as its outcome is known
-    extrapolate : whether slow departures from cycles are extrapolated, which halves the time; separations after them
-        are not timed
     tol : tolerance of simulations: error of event times after a second of motion
 
     Returns
@@ -104,7 +99,7 @@ def critical_speed(
     from disc_model.stability.follower import find_outcome
 
     speeds = values_between(bounds, step)
-    ratio = round(_ratio(step, precision))
+    ratio = math.ceil(step / PRECISION - 1e-9) if precision is None else round(step / precision)
     motions: dict[int, OutcomeResult] = {}
 
     def speed(i: int) -> float:
@@ -115,13 +110,8 @@ def critical_speed(
 
     def look(i: int) -> None:
         """Follow the motion from the static start, up to the longest horizon."""
-        result = find_outcome(
-            case.replace(Omega=speed(i)),
-            horizon[-1],
-            tol=tol,
-            early=early_end,
-            compared_with=horizon if extrapolate else (),
-        )
+        there = case.replace(Omega=speed(i))
+        result = find_outcome(there, horizon[-1], tol=tol, compared_with=horizon)
         # return maps would take megabytes each for a disc of many modes
         motions[i] = replace(result, near=None)
 
@@ -130,40 +120,46 @@ def critical_speed(
         look(i)
     for time in horizon:
         # every interval over which separation within the horizon begins or ends is halved, down to the lattice
-        while middles := [(a + b) // 2 for a, b in _changes(motions, time) if b - a > 1]:
+        while middles := [(a + b) // 2 for a, b, _ in _changes(motions, time) if b - a > 1]:
             for i in middles:
                 look(i)
-    failed = {i: result for i, result in motions.items() if result.status != "ok"}
+    rows = []
+    remarks = [
+        f"{value_with_unit('Omega', speed(i))}: {result.message}"
+        for i, result in motions.items()
+        if result.status != "ok"
+    ]
+    for time in horizon:
+        changes = _changes(motions, time)
+        known = {i: _first_separation(motions[i]) for i in sorted(motions)}
+        # the lowest speed that separates; an unknown speed hides those above it
+        first = next((i for i in known if not known[i] > time), None)
+        lowest = math.nan if first is None or math.isnan(known[first]) else speed(first)
+        row = {
+            "critical_speed": lowest,
+            "n_crossings": len(changes),
+            "crossing": [speed(b) for _, b, _ in changes],
+            "crossing_kind": [kind for _, _, kind in changes],
+        }
+        rows.append(row)
+        if math.isnan(lowest):
+            span = f"{len(speeds)} speeds from {speeds[0]:g} to {speeds[-1]:g} rad/s"
+            remarks.append(f"no separation within {time:g} s at {span}")
+        elif lowest <= speeds[0]:
+            bound = f"at the lower bound, {speeds[0]:g} rad/s"
+            remarks.append(f"contact is already lost within {time:g} s {bound}")
     values: dict[str, Any] = {
-        "status": next((result.status for result in failed.values()), "ok"),
+        "status": next((x.status for x in motions.values() if x.status != "ok"), "ok"),
         "scan_outcome": [motions[i].word for i in scanned],
         "scan_first_separation": [motions[i].timed_separation for i in scanned],
         "scan_status": [motions[i].status for i in scanned],
         "simulations": len(motions),
         "simulated_time": sum(result.simulated for result in motions.values()),
-        **listed([_crossings(motions, time, speed) for time in horizon]),
+        **listed(rows),
     }
-    at_bound = [bool(lowest <= speeds[0]) for lowest in values["critical_speed"]]
-    remarks = [f"{value_with_unit('Omega', speed(i))}: {x.message}" for i, x in failed.items()]
-    message = "; ".join(remarks or _reasons(speeds, horizon, values["critical_speed"]))
-    own = {"horizon": horizon, "crossing_number": range(max_crossings), "scan_Omega": speeds}
-    answer = found("critical_speed", values, message, **own)
-    return answer.assign(at_lower_bound=("horizon", at_bound))
-
-
-def _reasons(
-    speeds: Sequence[float], horizons: Sequence[float], lowest: Sequence[float]
-) -> Iterable[str]:
-    """Which horizons have no critical speed, or one at the lower bound."""
-    known = [*zip(horizons, lowest, strict=True)]
-    without = ", ".join(f"{horizon:g}" for horizon, speed in known if math.isnan(speed))
-    if without:
-        scan = f"{len(speeds)} speeds from {speeds[0]:g} to {speeds[-1]:g} rad/s"
-        yield f"no separation within {without} s at {scan}"
-    at_bound = ", ".join(f"{horizon:g}" for horizon, speed in known if speed <= speeds[0])
-    if at_bound:
-        bound = f"at the lower bound, {speeds[0]:g} rad/s"
-        yield f"contact is already lost within {at_bound} s {bound}"
+    own = {"horizon": horizon, "crossing_number": range(MOST_CROSSINGS), "scan_Omega": speeds}
+    answer = found("critical_speed", values, "; ".join(remarks), **own)
+    return answer.assign(at_lower_bound=answer["critical_speed"] <= speeds[0])
 
 
 def _first_separation(result: OutcomeResult) -> float:
@@ -173,32 +169,13 @@ def _first_separation(result: OutcomeResult) -> float:
     return result.first_separation
 
 
-def _changes(motions: Mapping[int, OutcomeResult], horizon: float) -> list[tuple[int, int]]:
-    """Pairs of neighbours on the lattice of which only one separates within the horizon; one that is
-    unknown is in none."""
+def _changes(motions: Mapping[int, OutcomeResult], horizon: float) -> list[tuple[int, int, str]]:
+    """Pairs of neighbours on the lattice of which only one separates within the horizon, and whether it begins
+    or ends there; one that is unknown is in none."""
     known = {i: _first_separation(motions[i]) for i in sorted(motions)}
     changes = []
     for a, b in pairwise(known):
         decided = not math.isnan(known[a] + known[b])
         if decided and (known[a] <= horizon) != (known[b] <= horizon):
-            changes.append((a, b))
+            changes.append((a, b, "begins" if known[b] <= horizon else "ends"))
     return changes
-
-
-def _crossings(
-    motions: Mapping[int, OutcomeResult], horizon: float, speed: Callable[[int], float]
-) -> dict[str, Any]:
-    """Columns of the crossings for a horizon, and the critical speed."""
-    changes = [b for _, b in _changes(motions, horizon)]
-    known = {i: _first_separation(motions[i]) for i in sorted(motions)}
-    # the lowest speed that separates; an unknown speed hides those above it
-    first = next((i for i in known if not known[i] > horizon), None)
-    lowest = math.nan
-    if first is not None and not math.isnan(known[first]):
-        lowest = speed(first)
-    return {
-        "critical_speed": lowest,
-        "n_crossings": len(changes),
-        "crossing": [speed(b) for b in changes],
-        "crossing_kind": ["begins" if known[b] <= horizon else "ends" for b in changes],
-    }

@@ -4,15 +4,13 @@ and Lyapunov exponents of the motion."""
 from __future__ import annotations
 
 import math
-from dataclasses import asdict
 from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 import xarray as xr
 from pydantic import Field
 
-from disc_model.data.variables import WORDS, CycleStatus, message_of
-from disc_model.errors import SimulationError
+from disc_model.data.variables import message_of
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Start
 from disc_model.studies.quantity import (
@@ -31,15 +29,9 @@ if TYPE_CHECKING:
     from disc_model.simulation.states import State
     from disc_model.stability.continuation import StabilityCurve
 
-CYCLE = "The stick-slip cycle itself, stable or not."
-FROM_START = "The motion from the static start, near which no stick-slip cycle was found."
-BY_STATUS = {
-    **dict.fromkeys(WORDS["cycle_statuses"], FROM_START),
-    "steady_sliding": "The motion from the static start, near which steady sliding is stable.",
-    "unstable_sliding": "The motion from the static start: the steady sliding near it is unstable.",
-    "ok": CYCLE,
-}
-"""What is shown, by the status of a search for a cycle, or by the stability of sliding."""
+EXPONENTS = 2
+MOST_CURVES = 24
+CYCLE = "The stick-slip cycle, stable or not; without one, the motion from the static start."
 
 
 def _on_cycle(case: Parameters, *, tol: float) -> State:
@@ -50,7 +42,7 @@ def _on_cycle(case: Parameters, *, tol: float) -> State:
     return find_cycle(case, tol).state or static_start(case)
 
 
-@quantity(points_per_job=1000, motion=Motion(7, CYCLE, BY_STATUS, _on_cycle))
+@quantity(points_per_job=1000, motion=Motion(7, CYCLE, _on_cycle))
 def floquet(case: Parameters, *, tol: CycleTolerance = 1e-12) -> xr.Dataset:
     """The stick-slip cycle near the static start and its growth rate, by Floquet multipliers.
 
@@ -61,9 +53,7 @@ def floquet(case: Parameters, *, tol: CycleTolerance = 1e-12) -> xr.Dataset:
     from disc_model.stability.cycle import find_cycle
 
     cycle = find_cycle(case, tol)
-    leading = complex(math.nan, math.nan)
-    if cycle.status is CycleStatus.OK:
-        leading = complex(cycle.multipliers[0])
+    leading = cycle.multipliers[0] if cycle.status == "ok" else complex(math.nan, math.nan)
     values = {
         "status": cycle.status.value,
         "growth_rate": cycle.growth_rate,
@@ -87,59 +77,47 @@ def _after_transient(
     return state_after(case, start, transient, tol)
 
 
-@quantity(points_per_job=60, motion=Motion(8, "After the transient.", {}, _after_transient))
+@quantity(points_per_job=60, motion=Motion(8, "After the transient.", _after_transient))
 def lyapunov_exponents(
     case: Parameters,
     *,
     transient: Seconds,
     duration: Seconds,
-    count: Annotated[Count, Field(ge=1, le=7)] = 2,
-    interval: Seconds = 0.05,
     start: Starting = STATIC,
     tol: Tolerance = 1e-10,
 ) -> xr.Dataset:
-    """The largest Lyapunov exponents of the motion across all its events, without the one along it, which
+    """The two largest Lyapunov exponents of the motion across all its events, without the one along it, which
     is zero.
 
     Parameters
     ----------
     transient : time left out at the beginning
     duration : time over which rates are averaged
-    count : number of exponents, the largest ones
-    interval : time between orthonormalisations; exponents below -400/s need a shorter one
     start : start of the motion
     tol : tolerance of simulations: error of event times after a second of motion
     """
-    from disc_model.simulation.result import STATUS_OF
     from disc_model.stability.lyapunov import lyapunov_exponents as exponents_of
 
-    numbers = range(count)
-    try:
-        state = _after_transient(case, start=start, transient=transient, tol=tol)
-    except SimulationError as error:
-        status = STATUS_OF[type(error)].value
-        return found("lyapunov_exponents", {"status": status}, str(error), exponent_number=numbers)
     result = exponents_of(
         case,
         duration,
-        initial_state=state,
-        count=count,
-        interval=interval,
+        initial_state=_after_transient(case, start=start, transient=transient, tol=tol),
+        count=EXPONENTS,
+        interval=0.05,
         leave_out_trivial=True,
         tol=tol,
     )
-    known = np.isfinite(result.exponents)
     values = {
         "status": result.status.value,
         "exponent": result.exponents,
         "exponent_error": result.errors,
-        "converged": np.where(known, 1 + result.converged, 0),
+        "converged": np.where(np.isfinite(result.exponents), 1 + result.converged, 0),
         "trivial_exponent": result.trivial_exponent,
         "averaging_time": result.duration,
         "separations": result.separations,
     }
     message = "" if result.status.complete else result.status.advice
-    return found("lyapunov_exponents", values, message, exponent_number=numbers)
+    return found("lyapunov_exponents", values, message, exponent_number=range(EXPONENTS))
 
 
 # ---- Neutral curves
@@ -163,7 +141,6 @@ def neutral_curves(
     points: Annotated[Count, Field(ge=2, le=10_000)] = 31,
     max_step: Positive = 0.1,
     max_points: Annotated[Count, Field(ge=2, le=10_000)] = 200,
-    max_curves: Annotated[Count, Field(ge=1, le=1000)] = 24,
     tol: CycleTolerance = 1e-12,
 ) -> xr.Dataset:
     """Neutral curves and folds of the stick-slip cycle in the plane of two parameters, by continuation.
@@ -178,7 +155,6 @@ def neutral_curves(
     points : number of points of the search along each line
     max_step : arclength of the longest step along a curve
     max_points : most points of a curve, in each direction
-    max_curves : room for that many curves
     tol : tolerance of cycles: relative residual of the return map
     """
     from disc_model.stability.continuation import neutral_curves as curves_of
@@ -189,33 +165,29 @@ def neutral_curves(
         case, plane, lines, points=points, max_points=max_points, longest=max_step, tol=tol
     )
     # those beside a stable cycle first, in case there are more than the array holds
-    rows = [_row(curve) for curve in sorted(curves, key=_importance, reverse=True)]
+    rows = []
+    for curve in sorted(curves, key=_importance, reverse=True):
+        row = {
+            "kind": curve.kind,
+            "adjoins_stable_cycle": curve.adjoins_stable_cycle,
+            "period": curve.period,
+            "x": curve.values[:, 0],
+            "y": curve.values[:, 1],
+            "multiplier_re": curve.multipliers.real,
+            "multiplier_im": curve.multipliers.imag,
+        }
+        row |= {f"resonance_{name}": value for name, value in curve.resonance._asdict().items()}
+        rows.append(row)
     values = {
         "status": "ok",
         "n_curves": len(curves),
         "n_continuation_failures": len(curves.failures),
         **listed(rows),
     }
-    own: dict[str, Any] = {"curve": range(max_curves), "curve_point": range(2 * max_points)}
+    own: dict[str, Any] = {"curve": range(MOST_CURVES), "curve_point": range(2 * max_points)}
     return found("neutral_curves", values, **own)
 
 
 def _importance(curve: StabilityCurve) -> tuple[int, int]:
     """The number of points of a curve beside a stable cycle, and that of all."""
     return int(curve.adjoins_stable_cycle.sum()), len(curve.period)
-
-
-def _row(curve: StabilityCurve) -> dict[str, Any]:
-    """The columns of a curve."""
-    row: dict[str, Any] = {
-        "kind": curve.kind,
-        "adjoins_stable_cycle": curve.adjoins_stable_cycle,
-        "period": curve.period,
-        "x": curve.values[:, 0],
-        "y": curve.values[:, 1],
-        "multiplier_re": curve.multipliers.real,
-        "multiplier_im": curve.multipliers.imag,
-    }
-    for name, value in asdict(curve.resonance).items():
-        row[f"resonance_{name}"] = value
-    return row

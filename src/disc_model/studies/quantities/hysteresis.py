@@ -3,44 +3,35 @@ value to value."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import asdict
 from typing import Annotated, Any
 
 import numpy as np
 import xarray as xr
 
-from disc_model.data.coded import words
-from disc_model.data.variables import (
-    OF_QUANTITIES,
-    WORDS,
-    attributes_of_number,
-    unit_of_parameter,
-    value_with_unit,
-)
+from disc_model.data.variables import OF_QUANTITIES, WORDS, attributes_of_number, value_with_unit
 from disc_model.errors import require
 from disc_model.parameters import Parameters
-from disc_model.studies.quantities.swept_speeds import (
-    SPEED,
-    doubtful_contact,
-    edges_along,
-    swept_speeds,
-)
 from disc_model.studies.quantity import BETWEEN, Free, Rules, found, quantity, values_between
 from disc_model.units import Finite, Positive, Seconds, Tolerance, Unit
 
+SPEED = "Omega"
+"""The number along which sweeps go unless another one is asked for."""
 DIRECTIONS = ("up", "down")
 STAYS: Rules = (
-    (
-        lambda o: o.evaluation_time <= o.dwell,
-        "evaluation_time={0.evaluation_time:g} must be <= dwell={0.dwell:g}",
-    ),
     (lambda o: o.max_dwell >= o.dwell, "max_dwell={0.max_dwell:g} must be >= dwell={0.dwell:g}"),
 )
 """Rules of the times of stays at values."""
+WITHIN = (
+    lambda o: o.evaluation_time <= o.dwell,
+    "evaluation_time={0.evaluation_time:g} must be <= dwell={0.dwell:g}",
+)
+OK = WORDS["point_statuses"].index("ok")
+SETTLED = WORDS["answers"].index("settled")
 
 
-@quantity(points_per_job=3, own=("name",), rules=(*BETWEEN, *STAYS))
+@quantity(points_per_job=3, own=("name",), rules=(*BETWEEN, *STAYS, WITHIN))
 def hysteresis(
     case: Parameters,
     bounds: Annotated[tuple[Finite, Finite], Unit(of="name")],
@@ -69,11 +60,10 @@ def hysteresis(
     -------
     xarray.Dataset
         `onset_speed`, `offset_speed` (rad/s): the first speed with separation on the way up, and the lowest one to
-        which it persists on the way down. They are nan where the bounds do not show them, such as where contact is
-        still lost at the lower bound; `message` says why, and where a motion in contact had not settled
-        (`sweep_settled`): the onset may then be lower, with a longer `max_dwell`. `separation_rate` (1/s), `stay` (s)
-        and others by direction and speed. Of another number, such as N, they are `onset` and `offset` in its unit,
-        and its values are `sweep_N`
+        which it persists on the way down. They are nan where the bounds do not show them; `message` says why, and
+        whether motions in contact had not settled (`sweep_settled`): the onset may then be lower. `separation_rate`
+        (1/s), `stay` (s) and others by direction and speed. Of another number, such as N, they are `onset` and
+        `offset` in its unit, and its values are `sweep_N`
 
     Examples
     --------
@@ -82,91 +72,92 @@ def hysteresis(
     >>> sweep["onset_speed"].item(), sweep["separation_rate"].dims
     (16.0, ('direction', 'sweep_Omega'))
     """
-    from disc_model.stability.attractors import sweep
-
-    swept = values_between(bounds, step)
-    _require_same_shapes(case, name, bounds)
-    status = "ok"
-    failure = ""
-    values: dict[str, Any] = {}
-    for variable, column in OF_QUANTITIES["hysteresis"]["columns"].items():
-        if column.dims:
-            values[variable] = column.empty((2, len(swept)))
-    answers = OF_QUANTITIES["hysteresis"]["columns"]["sweep_settled"].flags
-    steps = sweep(case, name, swept, dwell, max_dwell, evaluation_time, tol)
-    for index, result, late, reached in steps:
-        if late is None:
-            status = result.status.value
-            failure = f"{value_with_unit(name, swept[index[1]])}: {result.message}"
-        values["sweep_status"][index] = WORDS["point_statuses"].index(status)
-        values["sweep_settled"][index] = answers.index(reached.settling.answer)
-        values["stay"][index] = reached.stay
-        stretch = {**asdict(late), "range": late.range} if late else {}
-        for variable in values.keys() & stretch.keys():
-            values[variable][index] = stretch[variable]
-    values |= {"status": status, **_edges(swept, values)}
-    every = found("hysteresis", values, direction=DIRECTIONS, sweep_Omega=swept)
-    if name != SPEED:
-        edges = dict(zip(edges_along(SPEED), edges_along(name), strict=True))
-        every = every.rename({"sweep_Omega": f"sweep_{name}", **edges})
-        every[f"sweep_{name}"].attrs = {**attributes_of_number(name), "parameter": name}
-    return every.assign(message=failure or "; ".join(_reasons(words(every), name)))
-
-
-def _require_same_shapes(case: Parameters, name: str, bounds: Sequence[float]) -> None:
-    """Raise `ParameterError` where values have other modes, in which no motion goes on."""
     from disc_model.simulation.states import mode_arrays
+    from disc_model.stability.attractors import sweep
 
     low, high = (mode_arrays(case.replace(**{name: end})).psi for end in bounds)
     same = low.shape == high.shape and np.allclose(low, high, rtol=1e-9)
     require((same, "name", name, "must be a number that does not change the shapes of the modes"))
+    swept = values_between(bounds, step)
+    columns = OF_QUANTITIES["hysteresis"]["columns"]
+    values: dict[str, Any] = {
+        variable: column.empty((2, len(swept))) for variable, column in columns.items()
+    }
+    status = "ok"
+    failure = ""
+    for place, result, late, reached in sweep(
+        case, name, swept, dwell, max_dwell, evaluation_time, tol
+    ):
+        stay: dict[str, Any] = {
+            "sweep_settled": WORDS["answers"].index(reached.settling.answer),
+            "stay": reached.stay,
+        }
+        if late is None:
+            status = result.status.value
+            failure = f"{value_with_unit(name, swept[place[1]])}: {result.message}"
+        else:
+            stay |= {**asdict(late), "range": late.range}
+        stay["sweep_status"] = WORDS["point_statuses"].index(status)
+        for variable in values.keys() & stay.keys():
+            values[variable][place] = stay[variable]
+    onset, offset = _edges(swept, values)
+    values |= {"status": status, "onset_speed": onset, "offset_speed": offset}
+    every = found(
+        "hysteresis",
+        values,
+        failure or "; ".join(_reasons(name, swept, values)),
+        direction=DIRECTIONS,
+        sweep_Omega=swept,
+    )
+    if name != SPEED:
+        along = {"sweep_Omega": f"sweep_{name}", "onset_speed": "onset", "offset_speed": "offset"}
+        every = every.rename(along)
+        every[f"sweep_{name}"].attrs = {**attributes_of_number(name), "parameter": name}
+    return every
 
 
-def _edges(swept: Sequence[float], values: dict[str, Any]) -> dict[str, float]:
-    """Values at which separation sets in on the way up, and to which it persists on the way down, as far
-    as they are known: each lies beside a value at which contact is kept."""
-    edges = {}
-    done = values["sweep_status"] == WORDS["point_statuses"].index("ok")
+def _edges(swept: Sequence[float], values: dict[str, Any]) -> tuple[float, float]:
+    """Values at which separation sets in on the way up, and to which it persists on the way down, nan where
+    they are not known: each lies beside a value at which contact is kept."""
     rising, falling = values["separation_rate"] > 0
+    done = values["sweep_status"][1] == OK
+    onset = offset = np.nan
     if rising.any() and not rising[0]:
-        edges["onset_speed"] = swept[rising.argmax()]
-    if falling[-1]:
-        quiet = np.flatnonzero(~falling)
-        if quiet.size and done[1, quiet[-1]]:
-            edges["offset_speed"] = swept[quiet[-1] + 1]
-    return edges
+        onset = swept[rising.argmax()]
+    quiet = np.flatnonzero(~falling)
+    if falling[-1] and quiet.size and done[quiet[-1]]:
+        offset = swept[quiet[-1] + 1]
+    return onset, offset
 
 
-def _reasons(sweep: xr.Dataset, name: str) -> Iterable[str]:
+def _reasons(name: str, swept: Sequence[float], values: dict[str, Any]) -> Iterator[str]:
     """Why a sweep up and down has no onset or no end of separation, and where contact may yet be lost."""
-    values = sweep[f"sweep_{name}"].values
-    unit = f" {unit_of_parameter(name)}".rstrip()
-    before = "" if name == SPEED else f"{name} = "
-    lowest = f"{before}{values[0]:g}{unit}"
-    highest = f"{before}{values[-1]:g}{unit}"
-    speeds = swept_speeds(sweep)
-    if not (sweep["separation_rate"] > 0).any():
-        several = "speeds" if name == SPEED else f"values of {name}"
-        span = f"from {values[0]:g} to {values[-1]:g}{unit}"
-        yield f"contact is kept at all {values.size} {several} {span}"
+    lowest, highest = (value_with_unit(name, value) for value in (swept[0], swept[-1]))
+    apart = values["separation_rate"] > 0
+    rising, falling = apart
+    if not apart.any():
+        yield f"contact is kept from {lowest} to {highest}"
     else:
-        if speeds.onset_at_bound:
+        if rising[0]:
             yield f"contact is lost on the way up from the lower bound on, {lowest}"
-        elif speeds.onset.isnull():
+        elif not rising.any():
             yield f"contact is kept on the way up to {highest}"
-        if speeds.end_at_bound:
+        if falling.all():
             yield f"contact is still lost on the way down at the lower bound, {lowest}"
-        elif speeds.end.isnull():
+        elif not falling[-1]:
             yield f"contact is kept at {highest}, where the way down begins"
-        if speeds.onset_at_bound or speeds.end_at_bound:
-            yield "bounds further down may show where it is kept"
-    doubts = []
-    for direction in DIRECTIONS:
-        doubtful = values[doubtful_contact(sweep).sel(direction=direction).values]
-        if doubtful.size:
-            at = ", ".join(f"{value:g}" for value in doubtful[:3])
-            more = f" and {doubtful.size - 3} more" if doubtful.size > 3 else ""
-            doubts.append(f"at {before}{at}{more}{unit} on the way {direction}")
-    if doubts:
-        where = " and ".join(doubts)
-        yield f"{where} the motion in contact has not settled and may yet separate: raise max_dwell"
+    doubtful = (values["separation_rate"] == 0) & (values["sweep_settled"] != SETTLED)
+    if doubtful.any():
+        yield f"at {doubtful.sum()} stays the motion in contact has not settled: raise max_dwell"
+
+
+def swept_speeds(sweep: xr.Dataset) -> tuple[xr.DataArray, xr.DataArray]:
+    """Speeds (rad/s) of a study at which separation begins on the way up and ends on the way down; the lowest
+    one where contact is lost there already, or still."""
+    apart = sweep["separation_rate"] > 0
+    lowest = sweep["sweep_Omega"].min()
+    at_once = apart.sel(direction="up", drop=True).isel(sweep_Omega=0, drop=True)
+    always = apart.sel(direction="down", drop=True).all("sweep_Omega")
+    return sweep["onset_speed"].where(~at_once, lowest), sweep["offset_speed"].where(
+        ~always, lowest
+    )

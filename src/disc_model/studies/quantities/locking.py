@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from disc_model.simulation.result import Result
     from disc_model.stability.locking import Lock
 
+RELEASES = 50  # whose phases are stored
+
 
 @quantity(
     points_per_job=90,
@@ -35,7 +37,6 @@ def locking(
     record: Seconds = 20.0,
     max_record: Seconds = 160.0,
     multipliers: bool = True,
-    releases: Annotated[Count, Field(ge=1, le=10_000)] = 50,
     probes: Annotated[Count, Field(ge=0, le=10_000)] = 0,
     start: Starting = STATIC,
     tol: Tolerance = 1e-10,
@@ -50,7 +51,6 @@ def locking(
     max_record : longest time recorded
     multipliers : whether the motion counts as locked only if Newton's method finds a stable cycle at it, whose period
         is then given; without this, that of a motion which still settles may be a multiple
-    releases : number of releases whose phases are stored
     probes : number of places at which the map of release phases is computed
     start : start of the motion
     tol : tolerance of simulations: error of event times after a second of motion
@@ -66,18 +66,13 @@ def locking(
     from disc_model.simulation.starts import state_after
     from disc_model.stability.locking import phase_map
 
-    own = {"release": range(releases), "probe": range(probes)}
     state = state_after(case, start, transient, tol)
     while True:
-        run = simulate(case, duration=record, tol=tol, initial_state=state)
-        if not run.status.complete:
-            return found("locking", {"status": run.status.value}, run.message, **own)
+        run = simulate(case, duration=record, tol=tol, initial_state=state).raise_for_status()
         values, lock = _read(run)
         if values["motion"] != "undecided" or 2 * record > max_record:
             break
         record *= 2
-    for name in ("release_phase", "release_separations"):
-        values[name] = values.get(name, np.empty(0))[:releases]
     values |= {"status": "ok", "record_time": record}
     message = ""
     if lock is not None and multipliers:
@@ -94,7 +89,7 @@ def locking(
             "map_separations": phases.vibrations.astype(float),
             "map_slope": phases.slopes,
         }
-    return found("locking", values, message, **own)
+    return found("locking", values, message, release=range(RELEASES), probe=range(probes))
 
 
 def _read(run: Result) -> tuple[dict[str, Any], Lock | None]:
@@ -115,8 +110,8 @@ def _read(run: Result) -> tuple[dict[str, Any], Lock | None]:
         "motion": "undecided",
         "separations_per_release": float(np.mean(taken.vibrations)),
         "separation_interval": taken.vibration,
-        "release_phase": taken.phases,
-        "release_separations": taken.vibrations.astype(float),
+        "release_phase": taken.phases[:RELEASES],
+        "release_separations": taken.vibrations[:RELEASES].astype(float),
     }
     if lock is not None:
         values |= {"motion": "locked", **_columns_of(lock)}

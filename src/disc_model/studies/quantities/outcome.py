@@ -12,15 +12,7 @@ import xarray as xr
 from disc_model.data.variables import Outcome
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Start
-from disc_model.studies.quantity import (
-    COME_TO,
-    COME_TO_BY,
-    STATIC,
-    Motion,
-    Starting,
-    found,
-    quantity,
-)
+from disc_model.studies.quantity import COME_TO, STATIC, Motion, Starting, found, quantity
 from disc_model.units import Seconds, Tolerance
 
 if TYPE_CHECKING:
@@ -43,7 +35,6 @@ def _late(
     evaluation_time: float,
     after_separation: float,
     early_end: bool,
-    extrapolate: bool,
     tol: float,
 ) -> tuple[OutcomeResult, Result | None, Segment | None]:
     """The outcome, the run beyond it, if any, and the late stretch."""
@@ -51,25 +42,20 @@ def _late(
     from disc_model.stability.follower import find_outcome
     from disc_model.stability.segments import final_segment
 
+    state = make_initial_state(case, start, tol)
     reached = find_outcome(
-        case,
-        horizon,
-        tol=tol,
-        start=make_initial_state(case, start, tol),
-        early=early_end,
-        late=evaluation_time,
-        compared_with=(horizon,) if extrapolate else (),
+        case, horizon, tol=tol, start=state, early=early_end, late=evaluation_time
     )
-    if reached.outcome is Outcome.SEPARATION:
-        late = final_segment(case, reached.state, after_separation, evaluation_time, tol)
-        return reached, *late
-    if reached.outcome is None or reached.segment is not None:
-        return reached, None, reached.segment
-    # a stable cycle is known exactly; elsewhere the motion is steady
     on = reached.state
-    if reached.near is not None and reached.near.cycle.stable:
+    duration = evaluation_time
+    if reached.outcome is Outcome.SEPARATION:
+        duration = after_separation
+    elif reached.outcome is None or reached.segment is not None:
+        return reached, None, reached.segment
+    elif reached.near is not None and reached.near.cycle.stable:
+        # a stable cycle is known exactly; elsewhere the motion is steady
         on = reached.near.cycle.state
-    return reached, *final_segment(case, on, evaluation_time, evaluation_time, tol)
+    return reached, *final_segment(case, on, duration, evaluation_time, tol)
 
 
 def _come_to(case: Parameters, **options: Any) -> State:
@@ -85,7 +71,7 @@ def _come_to(case: Parameters, **options: Any) -> State:
 @quantity(
     points_per_job=80,
     rules=((lambda o: o.evaluation_time <= min(o.after_separation, o.horizon), _TIMES),),
-    motion=Motion(4, COME_TO, COME_TO_BY, _come_to),
+    motion=Motion(4, COME_TO, _come_to),
 )
 def outcome(
     case: Parameters,
@@ -95,7 +81,6 @@ def outcome(
     evaluation_time: Seconds = 1.0,
     after_separation: Seconds = 5.0,
     early_end: bool = True,
-    extrapolate: bool = False,
     tol: Tolerance = 1e-10,
 ) -> xr.Dataset:
     """Long-term behaviour within a horizon, such as "stick_slip" or "separation", with ranges and phases
@@ -108,8 +93,6 @@ def outcome(
     evaluation_time : length of the late stretch, over which ranges and shares are taken
     after_separation : time from the first separation to the end of the late stretch
     early_end : whether a simulation ends as soon as its outcome is known
-    extrapolate : whether slow departures from cycles are extrapolated, which halves the time; separations after them
-        are not timed
     tol : tolerance of simulations: error of event times after a second of motion
 
     Returns
@@ -127,24 +110,24 @@ def outcome(
     separation 54.4 s
     """
     reached, result, late = _late(
-        case, horizon, start, evaluation_time, after_separation, early_end, extrapolate, tol
+        case, horizon, start, evaluation_time, after_separation, early_end, tol
     )
     last = reached if result is None else result
+    complete = last.status.complete
     values: dict[str, Any] = {
-        "status": "ok" if last.status.complete else last.status.value,
+        "status": "ok" if complete else last.status.value,
         "outcome": reached.word,
         "first_separation": reached.timed_separation,
         "time_reached": reached.time,
         "cycle_distance": reached.distance,
         **_changes(reached),
+        **(asdict(late) if late else {}),
     }
     if reached.outcome is Outcome.SEPARATION and result is not None:
         values["time_reached"] = result.final_state.time
     elif reached.outcome is not None and reached.time < horizon:
         values["left_at"] = reached.time
-    if late is not None:
-        values |= asdict(late)
-    return found("outcome", values, "" if last.status.complete else last.message)
+    return found("outcome", values, "" if complete else last.message)
 
 
 def _changes(reached: OutcomeResult) -> dict[str, float]:
@@ -152,9 +135,8 @@ def _changes(reached: OutcomeResult) -> dict[str, float]:
     if not reached.changes:
         return {}
     shown = {"return_map_residual": reached.changes[-1]}
-    times = np.array(reached.times[-FEWEST:])
     changes = np.array(reached.changes[-FEWEST:])
-    if len(times) == FEWEST and np.all(changes > 0):
-        rate, _ = np.polyfit(times, np.log(changes), 1)
+    if len(changes) == FEWEST and np.all(changes > 0):
+        rate, _ = np.polyfit(reached.times[-FEWEST:], np.log(changes), 1)
         shown["return_map_residual_rate"] = float(rate)
     return shown

@@ -4,7 +4,6 @@ ramp's rate."""
 from __future__ import annotations
 
 import math
-from functools import partial
 from typing import TYPE_CHECKING, Annotated, Any
 
 import xarray as xr
@@ -50,23 +49,14 @@ def ramps(
     >>> found["top_separation_rate"].values
     array([0.])
     """
-    rows: list[dict[str, Any]] = []
-    status = "ok"
-    message = ""
-    for rate in rates:
-        row, failed = _run(case.replace(Omega=bounds[0]), bounds, rate, dwell, tol)
-        if failed is not None:
-            status = row["rate_status"] = failed.status.value
-            message = f"rate = {rate:g} rad/s²: {failed.message}"
-        rows.append(row)
-    return found("ramps", {**listed(rows), "status": status}, message, rate=rates)
+    runs = [_run(case.replace(Omega=bounds[0]), bounds, rate, dwell, tol) for rate in rates]
+    return found("ramps", {**listed(runs), "status": "ok"}, rate=rates)
 
 
 def _run(
     case: Parameters, bounds: tuple[float, float], rate: float, dwell: float, tol: float
-) -> tuple[dict[str, Any], Result | None]:
-    """Columns, as far as they are known, of one run, with a dwell at both speeds, and its part that
-    failed, if any."""
+) -> dict[str, Any]:
+    """Columns of one run, with a dwell at both speeds; raises `SimulationError`."""
     from disc_model.engine.record import LOSS_OF_CONTACT
     from disc_model.simulation.api import simulate
     from disc_model.stability.segments import event_times
@@ -75,30 +65,28 @@ def _run(
     top = (high - low) / rate
     down = top + dwell
     bottom = down + top
-    end = bottom + dwell
     up = Ramp(parameter="Omega", to=high, start=0.0, end=top)
     ramps = (up, Ramp(parameter="Omega", to=low, start=down, end=bottom))
-    on = partial(simulate, case, ramps=ramps, tol=tol)
+
+    def on(until: float, run: Result | None = None, **how: Any) -> Result:
+        state = run.final_state if run else None
+        reached = simulate(case, until, ramps=ramps, tol=tol, initial_state=state, **how)
+        return reached.raise_for_status()
 
     run = on(top, events=False, stop_at="first_separation")
-    values = {"rate_status": "ok", "onset_speed": low + rate * run.first_separation}
+    onset = low + rate * run.first_separation
     if run.status.value == "stopped":
-        run = on(top, events=False, initial_state=run.final_state)
-    if run.status.complete:
-        run = on(down, events=False, initial_state=run.final_state)
-    if not run.status.complete:
-        return values, run
-    values["top_separation_rate"] = run.statistics["n_separations"] / dwell
+        run = on(top, run, events=False)
+    run = on(down, run, events=False)
+    stay = run.statistics["n_separations"] / dwell
     last = math.nan
-    while run.final_state.time < end:
+    while run.final_state.time < bottom + dwell:
         # events of all of the way would fill hundreds of MB
-        until = min(run.final_state.time + 100.0, end)
-        run = on(until, events=True, initial_state=run.final_state)
+        run = on(min(run.final_state.time + 100.0, bottom + dwell), run, events=True)
         lost = event_times(run, LOSS_OF_CONTACT)
         if lost.size:
             last = float(lost[-1])
-        if not run.status.complete:
-            return values, run
+    values = {"rate_status": "ok", "onset_speed": onset, "top_separation_rate": stay}
     if last < bottom:
         values["offset_speed"] = high - rate * (last - down)
-    return values, None
+    return values

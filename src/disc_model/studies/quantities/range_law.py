@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 import xarray as xr
-from pydantic import Field
 
 from disc_model.data.variables import PHASES
 from disc_model.parameters import Parameters
@@ -18,7 +18,8 @@ from disc_model.units import Finite, Seconds, Tolerance, Unit
 if TYPE_CHECKING:
     from disc_model.simulation.result import Result
 
-BEGINS = ("static", "displaced")
+LATE = 2.0
+"""The last stretch, over which all is measured, s."""
 EARLIER = 0.75
 """Share of a run at which the earlier stretch ends, whose range says whether the motion has settled."""
 RATE = 8000.0
@@ -29,35 +30,33 @@ RATE = 8000.0
 @quantity(
     points_per_job=350,
     rules=(
+        (lambda o: o.horizon > LATE, "horizon={0.horizon:g} must be > 2"),
         (
-            lambda o: o.evaluation_time < min(o.horizon, o.displaced_horizon),
-            "evaluation_time={0.evaluation_time:g} must be < horizon={0.horizon:g} and < "
-            "displaced_horizon={0.displaced_horizon:g}",
+            lambda o: o.displaced_horizon > LATE,
+            "displaced_horizon={0.displaced_horizon:g} must be > 2",
         ),
     ),
 )
 def range_law(
     case: Parameters,
     *,
-    displacement: Annotated[Finite, Field(ge=0)] = 2.0,
-    blow: Annotated[Finite, Unit("m/s")] = 0.0,
     horizon: Seconds = 80.0,
     displaced_horizon: Seconds = 40.0,
-    evaluation_time: Seconds = 2.0,
+    blow: Annotated[Finite, Unit("m/s")] = 0.0,
     in_contact: bool = False,
     tol: Tolerance = 1e-10,
 ) -> xr.Dataset:
     """Range of the slider's height where contact is lost again and again, from the static start and from a
     displaced one, and the range `disc_model.pinned_range` at the frequency of its vibration.
 
+    The second start is displaced downward, slider and disc, by two static deflections: contact is lost at once. All is
+    measured over the last two seconds.
+
     Parameters
     ----------
-    displacement : downward displacement of the second start, of slider and disc, in static deflections: large enough
-        that contact is lost at once
-    blow : upward velocity of the second start, of slider and disc
     horizon : time simulated from the static start
     displaced_horizon : time simulated from the displaced start
-    evaluation_time : length of the last stretch of each, over which all is measured
+    blow : upward velocity of the second start, slider and disc, in place of its displacement, unless 0
     in_contact : whether motions that keep contact are measured as well
     tol : tolerance of simulations: error of event times after a second of motion
 
@@ -65,7 +64,7 @@ def range_law(
     --------
     >>> import disc_model as dm
     >>> case = dm.Parameters(N=385, Omega=15)
-    >>> found = dm.range_law(case, horizon=2, displaced_horizon=5, evaluation_time=1)
+    >>> found = dm.range_law(case, horizon=3, displaced_horizon=6)
     >>> print(f"{found['pinned_range'].sel(begin='displaced').item():.3f} m")
     0.034 m
     """
@@ -73,29 +72,23 @@ def range_law(
     from disc_model.simulation.states import perturb, static_start
 
     static = static_start(case)
-    displaced = perturb(case, static, u=displacement * static.u, u_velocity=blow)
+    kick = {"u_velocity": blow} if blow else {"u": 2 * static.u}
+    starts = (static, horizon), (perturb(case, static, **kick), displaced_horizon)
     rows = []
-    for begin, state, end in zip(
-        BEGINS, (static, displaced), (horizon, displaced_horizon), strict=True
-    ):
-        first = end - evaluation_time
-        start = max(0.0, EARLIER * end - evaluation_time)
-        earlier = {"earlier": Window(start=start, stop=start + evaluation_time, rate=RATE)}
-        run = simulate(case, first, earlier, tol=tol, initial_state=state, events=False)
-        before = run
-        if run.status.complete:
-            windows = {"late": Window(start=first, stop=end, rate=RATE)}
-            on = run.final_state
-            run = simulate(case, end, windows, tol=tol, initial_state=on, events=False)
-        if not run.status.complete:
-            status = {"status": run.status.value}
-            return found("range_law", status, f"{begin} start: {run.message}", begin=BEGINS)
+    for state, end in starts:
+        on = partial(simulate, case, tol=tol, events=False)
+        start = max(0.0, EARLIER * end - LATE)
+        stop = min(start + LATE, end - LATE)
+        earlier = {"earlier": Window(start=start, stop=stop, rate=RATE)}
+        before = on(end - LATE, windows=earlier, initial_state=state).raise_for_status()
+        late = {"late": Window(start=end - LATE, stop=end, rate=RATE)}
+        run = on(end, windows=late, initial_state=before.final_state).raise_for_status()
         row = {"first_separation": np.fmin(before.first_separation, run.first_separation)}
         if in_contact or run.statistics["n_separations"]:
             row |= _measure(run)
             row["earlier_range"] = np.ptp(before["earlier"]["u"].values)
         rows.append(row)
-    return found("range_law", {"status": "ok", **listed(rows)}, begin=BEGINS)
+    return found("range_law", {"status": "ok", **listed(rows)}, begin=("static", "displaced"))
 
 
 def _measure(run: Result) -> dict[str, Any]:

@@ -20,16 +20,7 @@ from disc_model.data.variables import OF_QUANTITIES, with_advice
 from disc_model.errors import require
 from disc_model.parameters import Parameters
 from disc_model.studies.quantity import NUMERICAL, Ruled, found, listed, quantity, with_ends
-from disc_model.units import (
-    Count,
-    CycleTolerance,
-    Finite,
-    Positive,
-    Seconds,
-    Tolerance,
-    Unit,
-    is_number,
-)
+from disc_model.units import Count, CycleTolerance, Finite, Positive, Seconds, Unit, is_number
 
 UNSTABLE = ("unstable", "no_cycle", "separates", "unstable_sliding")
 FAILED = "failed"
@@ -88,12 +79,10 @@ def sensitivity(
     seed: Annotated[Count, Field(ge=0)] = 0,
     simulated_samples: Annotated[Count, Field(ge=0)] = 0,
     horizon: Seconds = 500.0,
-    extrapolate: bool = True,
     tol: CycleTolerance = 1e-12,
-    motion_tol: Tolerance = 1e-10,
 ) -> xr.Dataset:
     """The stick-slip cycle at samples of uncertain parameters, and the outcome of the static start: how likely is
-    instability?
+    instability? Slow departures from cycles are extrapolated; separations after them are not timed.
 
     Parameters
     ----------
@@ -103,10 +92,7 @@ def sensitivity(
     seed : whole number that determines the samples
     simulated_samples : number of the first samples whose motion is simulated as well
     horizon : longest simulated time of a sample
-    extrapolate : whether slow departures from cycles are extrapolated, which halves the time; separations after them
-        are not timed
     tol : tolerance of cycles: relative residual of the return map
-    motion_tol : tolerance of simulations: error of event times after a second of motion
 
     Examples
     --------
@@ -117,11 +103,9 @@ def sensitivity(
     ['no_cycle', 'stable', 'stable', 'unstable']
     """
     names = sorted(distributions)
-    drawn = _draws(case, distributions, samples, seed)
-    times = (horizon,) if extrapolate else ()
     rows = []
     messages = []
-    for i, values in enumerate(drawn):
+    for i, values in enumerate(_draws(case, distributions, samples, seed)):
         row: dict[str, Any] = {"status": "ok", "parameter_values": values, "cycle": FAILED}
         row["outcome"] = FAILED if i < simulated_samples else "not_simulated"
         remarks = []
@@ -129,25 +113,24 @@ def sensitivity(
             sample = case.replace(**dict(zip(names, values.tolist(), strict=True)))
             remarks.append(evaluate_cycle(sample, tol, row))
             if i < simulated_samples:
-                remarks.append(_outcome(sample, horizon, times, motion_tol, row))
+                remarks.append(_outcome(sample, horizon, row))
         except NUMERICAL as error:
             row["status"] = FAILED
             remarks.append(f"{type(error).__name__}: {error}")
         rows.append(row)
         messages.append("; ".join(dict.fromkeys(filter(None, remarks))))
-    columns = listed(rows)
-    cycles = columns["cycle"]
-    outcomes = columns["outcome"][:simulated_samples]
-    summary = {
-        "n_known_cycles": samples - cycles.count(FAILED),
-        "n_known_outcomes": len(outcomes) - outcomes.count(FAILED),
-        "n_failed_cycles": cycles.count(FAILED),
-        "n_failed_outcomes": outcomes.count(FAILED),
-        **with_ends("probability_unstable", _probability(cycles, UNSTABLE)),
-        **with_ends("probability_separation", _probability(outcomes, ("separation",))),
-    }
+    columns: dict[str, Any] = listed(rows)
+    for words, hits, kind, asked in (
+        (columns["cycle"], UNSTABLE, "cycles", "unstable"),
+        (columns["outcome"][:simulated_samples], ("separation",), "outcomes", "separation"),
+    ):
+        lost = words.count(FAILED)
+        known = len(words) - lost
+        columns |= {f"n_known_{kind}": known, f"n_failed_{kind}": lost}
+        probability = share(sum(word in hits for word in words), known, lost)
+        columns |= with_ends(f"probability_{asked}", probability)
     own: dict[str, Any] = {"sample": range(samples), "parameter": names}
-    return found("sensitivity", {**columns, **summary}, messages, **own)
+    return found("sensitivity", columns, messages, **own)
 
 
 def _draws(case: Parameters, distributions: Mapping[str, Any], samples: int, seed: int) -> Array:
@@ -180,20 +163,11 @@ def evaluate_cycle(case: Parameters, tol: float, row: dict[str, Any]) -> str:
     return ""
 
 
-def _outcome(
-    case: Parameters, horizon: float, times: tuple[float, ...], tol: float, row: dict[str, Any]
-) -> str:
+def _outcome(case: Parameters, horizon: float, row: dict[str, Any]) -> str:
     """Add what the static start of a sample comes to; returns a message."""
     from disc_model.stability.follower import find_outcome
 
-    result = find_outcome(case, horizon, tol=tol, compared_with=times)
+    result = find_outcome(case, horizon, compared_with=(horizon,))
     row["outcome"] = result.word
     row["first_separation"] = result.timed_separation
     return result.message
-
-
-def _probability(words: list[str], hits: tuple[str, ...]) -> tuple[float, float, float]:
-    """Share of samples with certain words, and its confidence interval, in which failed ones count
-    as either."""
-    known = [word for word in words if word != FAILED]
-    return share(sum(word in hits for word in known), len(known), len(words) - len(known))
