@@ -5,6 +5,7 @@ from __future__ import annotations
 import importlib.util
 import re
 import shutil
+import sys
 import tomllib
 from pathlib import Path
 
@@ -20,7 +21,7 @@ copyright = author
 release = disc_model.__version__
 
 extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx.ext.mathjax", "numpydoc"]
-exclude_patterns = ["_build", "drawings/*.py", "measurements/*"]
+exclude_patterns = ["_build", "measurements/*"]
 root_doc = "index"
 
 # ---- pages
@@ -123,8 +124,16 @@ def copy_mathjax(app, error):
     shutil.copytree(source / fonts, target / fonts, dirs_exist_ok=True)
 
 
+def write_options(app):
+    """Write the page of all options of quantities, which is not stored."""
+    sys.path.insert(0, str(app.srcdir))
+    page = importlib.import_module("write_options").page_text()
+    Path(app.srcdir, "study_options.md").write_text(page, encoding="utf-8")
+
+
 def setup(app):
     """Connect these functions with Sphinx."""
+    app.connect("builder-inited", write_options)
     app.connect("autodoc-process-signature", short_signature)
     app.connect("autodoc-process-docstring", words_below_names, priority=400)  # before numpydoc
     app.connect("doctree-read", mark_wide)

@@ -15,6 +15,7 @@ GALLERY = DOCS / "gallery"
 
 SHOWN = {
     "composite": "paper",
+    "stretching": "paper",
     "branches": "branches",
     "map_N": "map_N",
     "range_law": "range_law",
@@ -38,12 +39,6 @@ def shrink(source: Path, target: Path) -> Path:
     return target
 
 
-def draw_first_run() -> None:
-    """Draw the first picture of README."""
-    axes: Any = dm.simulate(dm.Parameters(N=385, Omega=15.1), 60).plot()
-    axes.flat[0].figure.savefig(GALLERY / "first_run.png", dpi=120)
-
-
 def draw_first_study() -> None:
     """Draw the picture of the first study of docs/studies.md."""
     page = (DOCS / "studies.md").read_text(encoding="utf-8")
@@ -55,7 +50,6 @@ def draw_first_study() -> None:
 @script
 def main() -> None:
     """Draw and shrink all pictures."""
-    draw_first_run()
     draw_first_study()
     for name, study in SHOWN.items():
         shrink(RESULTS / study / "figures" / f"{name}.png", GALLERY / f"{name}.png")

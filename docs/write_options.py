@@ -1,4 +1,4 @@
-"""Print the page of all options of quantities, from the functions that check them: `make schema`."""
+"""The page of all options of quantities, from the functions that check them: made with the site."""
 
 import re
 from collections.abc import Iterable, Mapping
@@ -12,12 +12,9 @@ from disc_model.units import Unit
 HEAD = """\
 # Options of quantities
 
-All keys under `options` of a study file, by [quantity](study_quantities.md), and arguments of the function of this name
-in Python, which takes a case first. *Required* ones have no default. Numbers may have
-[units](study_reference.md#axes). `lines` and `rates` are lists of numbers and of ranges such as
-`{start: 5, stop: 50, count: 10}`, or one range, which has `step` or `count`.
-[Starts](study_reference.md#starts) explains `start`,
-[sensitivity](study_quantities.md#sensitivity) `distributions`.
+All keys under `options` of a study file, by [quantity](study_reference.md#quantities), and arguments of the function of
+this name in Python. *Required* ones have no default. Numbers may have [units](study_reference.md#axes). `lines` and `rates`
+are lists of numbers and of ranges such as `{start: 5, stop: 50, count: 10}`, or one range.
 """
 HEADS = ("option", "type", "unit", "default", "meaning")
 KINDS = {
@@ -79,6 +76,3 @@ def _text(value: Any) -> str:
         return f"`{[*value]}`"
     return f"`{value}`" if isinstance(value, int | float | str) else ""
 
-
-if __name__ == "__main__":
-    print(page_text(), end="")

@@ -1,6 +1,5 @@
-"""Write the tables of docs/measurements.md: `make measurements`."""
+"""Write the tables of the comparisons with measurements: `make measurements`."""
 
-import re
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
@@ -11,8 +10,7 @@ from docs.measurements.signals import LEAST_FALLS
 
 from disc_model.errors import script
 
-DOCS = Path(__file__).parents[1]
-PAGE = DOCS / "measurements.md"
+TABLES = Path("results/measurements.md")
 
 
 def table(head: Iterable[str], rows: Iterable[Iterable[str]]) -> str:
@@ -144,19 +142,12 @@ SECTIONS: dict[str, Callable[[], str]] = {
     "damping": damping,
     "loads": loads,
 }
-"""Tables of the page by their marks."""
-
-
-def marked(name: str) -> re.Pattern[str]:
-    """Return a pattern of what stands between the marks of a table."""
-    return re.compile(rf"(?<=<!-- measured {name} -->\n\n).*?(?=\n\n<!-- end -->)", re.S)
+"""Tables by their names."""
 
 
 @script
 def main() -> None:
     """Write the tables."""
-    text = PAGE.read_text(encoding="utf-8")
-    for name, build in SECTIONS.items():
-        content = build()
-        text = marked(name).sub(lambda _, content=content: content, text)
-    PAGE.write_text(text, encoding="utf-8")
+    parts = [f"## {name}\n\n{build()}\n" for name, build in SECTIONS.items()]
+    TABLES.parent.mkdir(exist_ok=True)
+    TABLES.write_text("# Comparison with measurements\n\n" + "\n".join(parts), encoding="utf-8")

@@ -14,7 +14,6 @@ SCRIPTS = sorted(
         *ROOT.glob("workflow/scripts/*.py"),
         *ROOT.glob("docs/*.py"),
         *ROOT.glob("docs/measurements/*.py"),
-        *ROOT.glob("docs/drawings/*.py"),
     ]
 )
 

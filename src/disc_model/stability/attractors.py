@@ -1,7 +1,7 @@
 """What motions come to: proof of one motion's arrival, sweeps through a parameter, and the
 attractors of a case.
 
-docs/study_method.md, Settled motions, describes the legs and tests. Maps do without these and
+docs/method.md, Settled motions, describes the legs and tests. Maps do without these and
 without exponents.
 """
 

@@ -120,7 +120,7 @@ class FloquetResult(Summarised, EqualByValue):
     @property
     def stable(self) -> bool:
         """Whether the cycle exists and small disturbances of it die out."""
-        return self.growth_rate < 0
+        return bool(self.growth_rate < 0)
 
     @property
     def stick_time(self) -> float:

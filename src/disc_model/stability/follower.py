@@ -3,7 +3,7 @@ motion follows the linear one near them, otherwise it is simulated.
 
 That is tested over some seconds: near repetition alone proves nothing, because a torus shows it as
 well. Distances are on the section of the return map, relative to the norm of the static deflection.
-docs/study_method.md, Outcome, describes the search.
+docs/method.md, Outcomes, describes the search.
 """
 
 import math

@@ -289,7 +289,7 @@ class Branch:
     def state(self, i: int, begin: str = "") -> State:
         """The state of the i-th cycle on the section, at the end of stick or, without stick, where
         the spring is longest, and at time 0, to simulate and draw; the cycle may be unstable. With the
-        beginning "special_", that of the i-th special point.
+        beginning ``"special_"``, that of the i-th special point.
 
         Examples
         --------
