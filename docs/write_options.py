@@ -75,4 +75,3 @@ def _text(value: Any) -> str:
     if isinstance(value, tuple):
         return f"`{[*value]}`"
     return f"`{value}`" if isinstance(value, int | float | str) else ""
-

@@ -27,11 +27,7 @@ AXES: dict[str, list[Any]] = {
     "normalization": ["as_published", "orthonormal"],
 }
 UNITS = {"N": "N", "Omega": "rad s-1", "friction_decay": "s m-1"}
-STATED = {
-    "units": {},
-    "axes": ["Omega", "N"],
-    "motion": "The motion at the horizon.",
-}
+STATED = {"units": {}, "axes": ["Omega", "N"], "motion": "The motion at the horizon."}
 MESSAGE = 'SimulationError: </script> & "worse"'
 MOTIONS = [(100.0, 5.0, "as_published"), (385.0, 20.0, "as_published"), (100.0, 5.0, "orthonormal")]
 

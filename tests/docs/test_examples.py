@@ -213,9 +213,7 @@ def test_the_universal_file_of_the_page_can_be_read(tmp_path: Path) -> None:
     assert disc.damping_ratio[0] == pytest.approx(0.002)
 
 
-SAID = {
-    "first_run": said_of_a_first_run,
-}
+SAID = {"first_run": said_of_a_first_run}
 """What the sentences of each notebook say of the output above them."""
 NOTEBOOKS = sorted((DOCS / "notebooks").glob("*.md"))
 CELL = re.compile(r"^```{code-cell}\n(?::tags:[^\n]*\n)?(.*?)^```$", re.M | re.S)

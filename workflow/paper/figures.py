@@ -640,7 +640,7 @@ MOTIONS: dict[tuple[str, str], tuple[str, float, dict[str, Any]]] = {
 
 
 @grid_figure("range_law", takes=True)
-def stretched_ranges(study: xr.Dataset) -> Figure:
+def stretched_ranges(study: Dataset) -> Figure:
     """Range of motions over the range R at which vibration at their frequency loses contact, on the
     linear plate and on one that stretches, from rest and after a blow: one row for each case, one
     panel for each normalisation; filled where contact is lost."""
@@ -665,7 +665,7 @@ def stretched_ranges(study: xr.Dataset) -> Figure:
     return figure
 
 
-def _row_name(point: xr.Dataset) -> str:
+def _row_name(point: Dataset) -> str:
     """Preload and speed of a motion, and what differs from Table 1."""
     text = f"{point['N'].item():g} N, {point['Omega'].item():g} rad/s"
     usual = Parameters(N=1, Omega=1)
