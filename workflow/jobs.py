@@ -7,7 +7,6 @@ import json
 import logging
 import sys
 from collections.abc import Iterator
-from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -63,8 +62,8 @@ def grid(output: str, failed: str, remarked: str, folder: str) -> None:
 
     plan = read_plan()
     parts = _parts(plan["jobs"], Path(folder))
-    points, results = zip(*chain.from_iterable(map(points_of, parts)), strict=True)
-    study = merge(plan["layout"], points, results, plan["attrs"])
+    results = [row for part in parts for _, row in points_of(part)]
+    study = merge(plan["layout"], results, plan["attrs"])
     for path, points in zip((failed, remarked), told_points(study), strict=True):
         text = "no point" if points.empty else points.to_string(index=False)
         Path(path).write_text(f"{text}\n", encoding="utf-8")

@@ -91,22 +91,6 @@ def test_complex_numbers_are_two_variables() -> None:
     assert data["multipliers_imag"].attrs["long_name"] == "multiplier of the cycle"
 
 
-def test_a_branch_of_a_sweep_is_that_of_a_direct_call(tmp_path: Path) -> None:
-    """It was refused: padded with nan, its attributes those of the sweep, its counts real numbers."""
-    case = dm.Parameters(N=385, Omega=15)
-    options: Any = {"name": "Omega", "bounds": (14.8, 15.2)}
-    dm.save(dm.sweep(dm.continue_cycle, case, N=[300, 385, -1], **options), tmp_path / "x.nc")
-    swept: Any = dm.load(tmp_path / "x.nc")
-    for N in (300, 385):
-        again = dm.Branch.from_dataset(swept.sel(N=N))
-        branch = dm.continue_cycle(case.replace(N=N), **options)
-        xr.testing.assert_identical(again.to_dataset(), branch.to_dataset())
-    with refusal("must be one branch of the sweep: select it"):
-        dm.Branch.from_dataset(swept)
-    with refusal("must be a branch, but this point of the sweep failed: ParameterError: N=-1"):
-        dm.Branch.from_dataset(swept.sel(N=-1))
-
-
 EVENTS = RUN.to_tree()["events"].to_dataset()
 
 

@@ -107,9 +107,9 @@ def test_a_table_of_a_disc_is_read_beside_the_file(tmp_path: Path) -> None:
     )
     axes = {"disc": ["d.csv"], "N": [100]}
     study = parsed({**GRID, "base": {"Omega": 10}, "axes": axes}, tmp_path)
-    case, _ = study.case
-    assert case.disc is not None
-    assert case.disc.diameters == (1, 2)
+    disc = study.case.disc
+    assert disc is not None
+    assert disc.diameters == (1, 2)
 
 
 def test_a_figure_may_show_the_grid_of_another_file(tmp_path: Path) -> None:

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from disc_model.display import counted, frequencies_text
 from disc_model.errors import StatusBase
-from disc_model.mode_units import si_unit_of_mode
+from disc_model.mode_units import column_of, si_unit_of_mode
 from disc_model.parameters import Parameters
 
 _TABLES = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
@@ -122,7 +122,7 @@ class Variable(NamedTuple):
         stated = {name: getattr(self, name) for name in TEXTS[:4] if getattr(self, name)}
         if self.parameter:
             number = options.get(self.parameter, self.parameter)
-            return {**attributes_of_number(number), **stated, "parameter": number}
+            return {**attributes(number), **stated, "parameter": number}
         return stated
 
     @property
@@ -186,8 +186,6 @@ CHOICES: dict[str, tuple[str, ...]] = {
     name: get_args(Parameters.model_fields[name].annotation)
     for name in ("normalization", "contact", "contact_force", "friction_law", "stretching")
 }
-# flag of points that a grid's rule leaves out; other variables have no value there
-EXCLUDED = "excluded"
 TRUTH = {"comment": "1 for True, 0 for False, nan where there is neither"}
 """Attributes of numbers that stand for True and False, since some are missing."""
 
@@ -208,8 +206,10 @@ _CF_UNITS = {
 
 
 def attributes(name: str) -> dict[str, Any]:
-    """CF attributes of a variable: units, long name, comment and, for a flag, the meanings of its
-    values."""
+    """CF attributes of a variable of a run, a parameter or a number of one of a disc's modes: units, long
+    name, comment and, for a flag, the meanings of its values."""
+    if column_of(name):
+        return _attributes_of_mode(name)
     stem, _, bound = name.rpartition("_")
     known = SERIES | SCALARS | PERTURBATIONS | _OF_GRIDS
     if bound in _BOUNDS and stem in SERIES:
@@ -227,20 +227,13 @@ def attributes(name: str) -> dict[str, Any]:
     return Variable(_CF_UNITS.get(unit, unit), text, choices, comment=comment).attributes
 
 
-def attributes_of_mode(name: str) -> dict[str, Any]:
+def _attributes_of_mode(name: str) -> dict[str, Any]:
     """CF attributes of a number of one of a disc's modes, such as omega_2_0."""
     column, diameters, circles = name.rsplit("_", 2)
     number = _OF_A_MODE[column]
     text = f"{number.long_name} of the mode ({diameters}, {circles})"
     lines = f"{counted(int(diameters), 'nodal diameter')} and {counted(int(circles), 'circle')}"
     return number._replace(long_name=text, comment=lines).attributes
-
-
-def attributes_of_number(name: str) -> dict[str, Any]:
-    """CF attributes of a number of a case: a parameter, or a number of one of a disc's modes."""
-    if name in Parameters.model_fields:
-        return attributes(name)
-    return attributes_of_mode(name)
 
 
 def flag_names(variable: Any) -> np.ndarray:

@@ -18,7 +18,7 @@ from disc_model.arrays import Array, ComplexArray, EqualByValue, Mask
 from disc_model.data.variables import (
     OF_RESULTS,
     STABLE_CYCLES,
-    attributes_of_number,
+    attributes,
     unit_of_parameter,
     value_with_unit,
 )
@@ -173,7 +173,7 @@ class Critical(EqualByValue):
         >>> dm.load("critical.nc")["growth_rate"].dims
         ('mu_s',)
         """
-        along = attributes_of_number(self.name)
+        along = attributes(self.name)
         variables = {}
         for name, dims in DIMENSIONS.items():
             attrs = OF_RESULTS["Critical"][name].texts()

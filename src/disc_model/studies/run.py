@@ -5,31 +5,22 @@ from __future__ import annotations
 import json
 import logging
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
 import pandas as pd
 import xarray as xr
 
 from disc_model.data.coded import table_of
-from disc_model.data.dataset import CONVENTIONS, json_attribute
+from disc_model.data.dataset import CONVENTIONS
 from disc_model.data.described import described
-from disc_model.data.variables import (
-    EXCLUDED,
-    OF_QUANTITIES,
-    Variable,
-    attributes,
-    attributes_of_mode,
-)
-from disc_model.parameters import Disc, Parameters
+from disc_model.data.variables import Variable, attributes
+from disc_model.parameters import Disc
 from disc_model.provenance import git_commit, physics_hash, versions_text
 from disc_model.simulation.named_case import run_case
 from disc_model.studies.compute import Call, compute, stack
 from disc_model.studies.grid import VARIED, WORDS, Points, case_of
-from disc_model.studies.motions import history_from
 from disc_model.studies.quantity import failed, quantity_of
 
 if TYPE_CHECKING:
@@ -52,19 +43,12 @@ def call_of(layout: Layout) -> Call:
     return Call(quantity.function, make, dict(options), partial(failed, quantity.name))
 
 
-def _known_or_made(
-    case: Parameters, first: Mapping[str, Any], make: Callable[..., Parameters], **own: Any
-) -> Parameters:
-    """The case of the first point, which is made already, or another one."""
-    return case if own == first else make(**own)
-
-
 def run_job(job: str, known: Iterable[xr.Dataset] = ()) -> xr.Dataset:
     """The results of a job along `point`.
 
     Parameters
     ----------
-    job : a text of `Grid.jobs`
+    job : a text of `Study.jobs`
     known : results of other jobs on the same quantity, options and base, from which points are taken
     """
     layout = json.loads(job)
@@ -75,29 +59,16 @@ def run_job(job: str, known: Iterable[xr.Dataset] = ()) -> xr.Dataset:
         there[tuple(point.items())] = row
     log.info("%d of %d points computed", len(missing), len(points))
     rows = [there[tuple(point.items())] for point in points]
-    return _along_points(points, rows, quantity_of(layout["quantity"]).columns)
+    return along_points(points, rows, quantity_of(layout["quantity"]).columns)
 
 
-def run_motions(job: str) -> xr.Dataset:
-    """Short histories of the motion along `point` and `sample`, for a text of `Grid.motions`."""
-    layout = json.loads(job)
-    motion = quantity_of(layout["quantity"]).motion
-    assert motion is not None
-    history = partial(history_from, motion.state)
-    call = replace(call_of(layout), function=history, failed=partial(failed, "motions"))
-    columns = OF_QUANTITIES["motions"]["columns"]
-    points = layout["points"]
-    return described(_along_points(points, compute(call, points), columns), "motions")
-
-
-def _along_points(
+def along_points(
     points: Points, rows: Sequence[xr.Dataset], columns: Mapping[str, Variable]
 ) -> xr.Dataset:
     """Results in one dataset, with what varies as coordinates along `point`."""
-    places = np.arange(len(rows))[:, np.newaxis]
-    varied = {name: (POINT, [point[name] for point in points]) for name in points[0]}
-    results = stack(rows, places, {POINT: len(rows)}, columns)
-    return results.assign_coords(varied).assign_attrs(names=json.dumps([*varied]))
+    varied = {name: (POINT, [*values]) for name, values in pd.DataFrame(points).items()}
+    results = stack(rows, {POINT: len(rows)}, columns).assign_coords(varied)
+    return results.assign_attrs(names=json.dumps([*varied]))
 
 
 def points_of(part: xr.Dataset) -> Iterable[tuple[dict[str, Any], xr.Dataset]]:
@@ -105,61 +76,56 @@ def points_of(part: xr.Dataset) -> Iterable[tuple[dict[str, Any], xr.Dataset]]:
     names = json.loads(part.attrs["names"])
     results = part.drop_vars(names)
     columns = [part[name].values.tolist() for name in names]
-    for i in range(part.sizes[POINT]):
-        yield {name: x[i] for name, x in zip(names, columns, strict=True)}, results.isel(point=i)
+    for i, values in enumerate(zip(*columns, strict=True)):
+        yield dict(zip(names, values, strict=True)), results.isel(point=i)
 
 
-def merge(
-    layout: Layout,
-    rows: Sequence[Mapping[str, Any]],
-    results: Sequence[xr.Dataset],
-    attrs: Mapping[str, str],
-) -> xr.Dataset:
+def merge(layout: Layout, results: Sequence[xr.Dataset], attrs: Mapping[str, str]) -> xr.Dataset:
     """The results at all points of a grid over its dimensions, which a variable has in the order of the
     parameters, before its own.
 
     Parameters
     ----------
     layout : of `Study.layout`
-    rows : what varies at the points
-    results : of these
+    results : at all points, in the order of `Study.points`
     attrs : of the study
     """
     quantity = quantity_of(layout["quantity"])
-    points = pd.DataFrame(rows)
-    coords: dict[str, Any] = {}
+    coords = {}
     sizes = {}
-    places = []
+    firsts = {}
     for dim, columns in layout["dims"].items():
-        frame = pd.DataFrame(columns)
-        known = pd.MultiIndex.from_frame(frame)
-        places.append(known.get_indexer(pd.MultiIndex.from_frame(points[[*columns]])))
-        sizes[dim] = len(frame)
+        firsts[dim], *_ = columns
+        sizes[dim] = len(columns[firsts[dim]])
         for name, values in columns.items():
             coords[name] = (dim, values, coordinate_attributes(name))
-    study = stack(results, np.transpose(places), sizes, quantity.columns).assign_coords(coords)
-    ranks = {dim: VARIED.index(next(iter(columns))) for dim, columns in layout["dims"].items()}
-    ranks |= {name: VARIED.index(name) for name in map(str, study.dims) if name in VARIED}
-    ranked = sorted(study.dims, key=lambda dim: ranks.get(str(dim), len(VARIED)))
-    options = layout["options"]
-    stated = {name: layout[name] for name in ("options", "base", "discs")}
-    if not stated["discs"]:
-        del stated["discs"]
+    study = stack(results, sizes, quantity.columns).assign_coords(coords)
+
+    def rank(dim: Any) -> int:
+        name = firsts.get(dim, dim)
+        return VARIED.index(name) if name in VARIED else len(VARIED)
+
+    stated = {
+        name: layout[name]
+        for name in ("options", "base", "discs")
+        if layout[name] or name != "discs"
+    }
     every = {
         "Conventions": CONVENTIONS,
         **attrs,
         "quantity": quantity.name,
-        **{name: json_attribute(x) for name, x in stated.items()},
+        **{name: json.dumps(value, sort_keys=True) for name, value in stated.items()},
         "git_commit": git_commit(),
         "source_hash": physics_hash(),
         "versions": versions_text(),
     }
-    return described(study.transpose(*ranked).assign_attrs(every), quantity.name, options)
+    ranked = study.transpose(*sorted(study.dims, key=rank)).assign_attrs(every)
+    return described(ranked, quantity.name, layout["options"])
 
 
 def coordinate_attributes(name: str) -> dict[str, Any]:
     """Attributes of what varies as a coordinate; words have no unit."""
-    known = attributes(name) if name in VARIED else attributes_of_mode(name)
+    known = attributes(name)
     return {"long_name": known["long_name"]} if name in WORDS else known
 
 
@@ -169,7 +135,7 @@ def coordinate_attributes(name: str) -> dict[str, Any]:
 def told_points(study: xr.Dataset) -> tuple[pd.DataFrame, pd.DataFrame]:
     """Tables of the points without a result, and of those with a result and a message."""
     points = table_of(study[["status", "message"]])
-    known = points["status"].isin(["ok", EXCLUDED])
+    known = points["status"] == "ok"
     return points[~known], points[known & (points["message"] != "")]
 
 
@@ -222,9 +188,7 @@ def run_study(
     folder = Path() if isinstance(source, Mapping) else Path(source).parent
     study = parse_study(source, folder) if isinstance(source, Mapping) else load_study(source)
     grids, names = study.all_grids([folder])
-    datasets: dict[str, Any] = {}
-    for name in names:
-        datasets[name] = _run_grid(grids[name], map, progress)
+    datasets: dict[str, Any] = {name: _run_grid(grids[name], map, progress) for name in names}
     if study.specs:
         trees = dict(zip(study.specs, map(run_case, study.specs.values()), strict=True))
         datasets["cases"] = xr.DataTree(children=trees)
@@ -235,8 +199,7 @@ def run_study(
 
 def _run_grid(study: Study, map: Callable[..., Iterable[Any]], progress: bool) -> xr.Dataset:
     """The grid of a study, whose points are computed here."""
-    call = call_of(study.layout)
-    call = replace(call, make=partial(_known_or_made, *study.case, call.make))
     points: Points = study.points.to_dict("records")
+    call = call_of(study.layout)
     results = compute(call, points, map=map, title=study.of.name, progress=progress)
-    return merge(study.layout, points, results, study.attrs)
+    return merge(study.layout, results, study.attrs)

@@ -28,7 +28,7 @@ from disc_model.display import counted
 from disc_model.errors import Fault, ParameterError, raise_faults, require, suggestion
 from disc_model.figures.schema import CasePlot, Kind, Plot
 from disc_model.figures.shown import IN_WORDS, factors_of
-from disc_model.parameters import DEFAULTS, Disc, Parameters
+from disc_model.parameters import Disc, Parameters
 from disc_model.provenance import content_key, physics_hash
 from disc_model.simulation.case import (
     CaseSpec,
@@ -40,12 +40,12 @@ from disc_model.simulation.case import (
     Window,
     ramp_faults,
 )
-from disc_model.studies.grid import Base, Columns, case_of, dimensions, expand, thinned
+from disc_model.studies.grid import Columns, case_of, dimensions, expand, thinned
 from disc_model.studies.quantity import HOMES, Quantity, quantity_of
 from disc_model.units import Count, Seconds, Strict, Tolerance, must
 
 ALL_MOTIONS = 100  # points of a grid up to which a motion of each is stored, some 3 kB each
-GRID_KEYS = frozenset({"options", "axes", "zip", "where", "points_per_job", "discs"})
+GRID_KEYS = frozenset({"options", "axes", "zip", "points_per_job", "discs"})
 
 
 class StudyError(ParameterError):
@@ -211,7 +211,7 @@ class Study(Strict):
 
     study: Name
     title: str = ""
-    base: Base = Base()
+    base: SomeParameters = SomeParameters()
     figures: Annotated[dict[Name, Figure], AfterValidator(_given)] = Field({})
     tol: Tolerance | None = 1e-10  # of all cases, as `record`
     record: RecordSpec = RecordSpec()
@@ -228,9 +228,6 @@ class Study(Strict):
         tuple[Columns, ...],
         BeforeValidator(_several, json_schema_input_type=Columns | list[Columns]),
     ] = ()
-    where: Annotated[
-        tuple[str, ...], BeforeValidator(_several, json_schema_input_type=str | list[str])
-    ] = ()  # rules that points keep, such as mu_k <= mu_s, as pandas.DataFrame.query has them
     points_per_job: Annotated[Count, Field(ge=1)] | None = None
     discs: dict[str, Annotated[Disc, WithJsonSchema({"type": "string"})]] = Field({})
     studies: tuple[str, ...] = ()  # further files of grid studies, * stands for any part of a name
@@ -310,38 +307,33 @@ class Study(Strict):
     @cached_property
     def points(self) -> pd.DataFrame:
         """What varies, a row for each point; raises `ParameterError`."""
-        return expand(self.dims, self.where, {**DEFAULTS, **self._base})
-
-    @property
-    def _base(self) -> dict[str, Any]:
-        """The values that the file gives to all points."""
-        return dict(self.base.model_dump(exclude_unset=True))
+        return expand(self.dims)
 
     @cached_property
-    def case(self) -> tuple[Parameters, dict[str, Any]]:
-        """The case of the first point that is possible, and what of it varies; raises `ParameterError`,
-        with what is wrong at the last point, if none is."""
-        faults = [Fault(("where",), "", "leaves no point")]
-        base = {**self.of.unset(self.options), **self._base}
+    def case(self) -> Parameters:
+        """The case of the first point that is possible; raises `ParameterError`, with what is wrong at the
+        last point, if none is."""
+        base = {**self.of.unset(self.options), **self.base.model_dump(exclude_unset=True)}
+        wrong = ParameterError()
         for point in self.points.to_dict("records"):
             own = {str(name): x for name, x in point.items() if name in Parameters.model_fields}
             try:
-                return case_of(base, self.discs, **own), own
+                return case_of(base, self.discs, **own)
             except ParameterError as error:
-                faults = []
-                for each in error.faults:
-                    faults.append(each.inside(("axes" if each.path[0] in own else "base",)))
+                wrong = error
+        faults = []
+        for fault in wrong.faults:
+            faults.append(fault.inside(("axes" if fault.path[0] in self._varied else "base",)))
         raise ParameterError(*faults)
 
     @cached_property
     def fixed(self) -> dict[str, Any]:
         """The values of the case that all points have: not of what varies, nor those that something else
         replaces."""
-        case, _ = self.case
         without = {*self._varied}
-        if case.damping_ratio is not None:
+        if self.case.damping_ratio is not None:
             without.add("D_star")
-        return {name: x for name, x in case.canonical.items() if name not in without}
+        return {name: x for name, x in self.case.canonical.items() if name not in without}
 
     @property
     def layout(self) -> dict[str, Any]:
@@ -382,17 +374,14 @@ class Study(Strict):
         few = dict(self.dims)
         if len(self.points) > ALL_MOTIONS:
             few = {dim: thinned(frame, motion.number) for dim, frame in self.dims.items()}
-        points = expand(few, self.where, {**DEFAULTS, **self._base}).to_dict("records")
+        points = expand(few).to_dict("records")
         text = _text({**self.layout, "code": physics_hash(), "points": points})
-        return {content_key(text): text} if points else {}
+        return {content_key(text): text}
 
     @property
     def attrs(self) -> dict[str, str]:
         """Attributes of the merged dataset that describe the study."""
-        attrs = {"study": self.study, "title": self.title}
-        if self.where:
-            attrs["where"] = " and ".join(f"({rule})" for rule in self.where)
-        return attrs
+        return {"study": self.study, "title": self.title}
 
     @property
     def page(self) -> dict[str, Any]:

@@ -81,6 +81,11 @@ def basins(
         as not separating at the lower ones, and `separating_fraction` is of the other starts; `message` counts the
         starts that are undecided within the horizon
 
+    Raises
+    ------
+    ParameterError
+        If an argument breaks a rule; the message names the argument, its value and the rule.
+
     Examples
     --------
     >>> import disc_model as dm

@@ -89,6 +89,11 @@ def critical_speed(
         next lower one computed, which is lower by `precision`; where it was lost at the lowest speed already,
         `at_lower_bound` is true. `message` states which horizons have no critical speed, or one at the lower bound.
 
+    Raises
+    ------
+    ParameterError
+        If an argument breaks a rule; the message names the argument, its value and the rule.
+
     Examples
     --------
     >>> import disc_model as dm

@@ -49,6 +49,17 @@ def floquet(case: Parameters, *, tol: CycleTolerance = 1e-12) -> xr.Dataset:
     Parameters
     ----------
     tol : tolerance of cycles: relative residual of the return map
+
+    Returns
+    -------
+    xarray.Dataset
+        The variables of a study of this quantity, with words as words; attributes are the case (`parameters`), the
+        `options`, and in `message` what went wrong or is missing
+
+    Raises
+    ------
+    ParameterError
+        If an argument breaks a rule; the message names the argument, its value and the rule.
     """
     from disc_model.stability.cycle import find_cycle
 
@@ -95,6 +106,17 @@ def lyapunov_exponents(
     duration : time over which rates are averaged
     start : start of the motion
     tol : tolerance of simulations: error of event times after a second of motion
+
+    Returns
+    -------
+    xarray.Dataset
+        The variables of a study of this quantity, with words as words; attributes are the case (`parameters`), the
+        `options`, and in `message` what went wrong or is missing
+
+    Raises
+    ------
+    ParameterError
+        If an argument breaks a rule; the message names the argument, its value and the rule.
     """
     from disc_model.stability.lyapunov import lyapunov_exponents as exponents_of
 
@@ -156,6 +178,17 @@ def neutral_curves(
     max_step : arclength of the longest step along a curve
     max_points : most points of a curve, in each direction
     tol : tolerance of cycles: relative residual of the return map
+
+    Returns
+    -------
+    xarray.Dataset
+        The variables of a study of this quantity, with words as words; attributes are the case (`parameters`), the
+        `options`, and in `message` what went wrong or is missing
+
+    Raises
+    ------
+    ParameterError
+        If an argument breaks a rule; the message names the argument, its value and the rule.
     """
     from disc_model.stability.continuation import neutral_curves as curves_of
 

@@ -10,7 +10,7 @@ from typing import Annotated, Any
 import numpy as np
 import xarray as xr
 
-from disc_model.data.variables import OF_QUANTITIES, WORDS, attributes_of_number, value_with_unit
+from disc_model.data.variables import OF_QUANTITIES, WORDS, attributes, value_with_unit
 from disc_model.display import counted
 from disc_model.errors import require
 from disc_model.parameters import Parameters
@@ -66,6 +66,11 @@ def hysteresis(
         (1/s), `stay` (s) and others by direction and speed. Of another number, such as N, they are `onset` and
         `offset` in its unit, and its values are `sweep_N`
 
+    Raises
+    ------
+    ParameterError
+        If an argument breaks a rule; the message names the argument, its value and the rule.
+
     Examples
     --------
     >>> import disc_model as dm
@@ -113,7 +118,7 @@ def hysteresis(
     if name != SPEED:
         along = {"sweep_Omega": f"sweep_{name}", "onset_speed": "onset", "offset_speed": "offset"}
         every = every.rename(along)
-        every[f"sweep_{name}"].attrs = {**attributes_of_number(name), "parameter": name}
+        every[f"sweep_{name}"].attrs = {**attributes(name), "parameter": name}
     return every
 
 

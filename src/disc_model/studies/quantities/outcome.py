@@ -102,6 +102,11 @@ def outcome(
         Of stable cycles in contact, "stick_slip" are that of `floquet`, and one whose release differs from the first
         release of the static start by at most a tenth of the static deflection; "other_cycle" are all others
 
+    Raises
+    ------
+    ParameterError
+        If an argument breaks a rule; the message names the argument, its value and the rule.
+
     Examples
     --------
     >>> import disc_model as dm
