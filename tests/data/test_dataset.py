@@ -11,14 +11,7 @@ import pytest
 import xarray as xr
 
 import disc_model as dm
-from disc_model.data.dataset import (
-    MissingFile,
-    UnreadableFile,
-    WriteError,
-    load_cases,
-    load_result,
-    load_tree,
-)
+from disc_model.data.dataset import MissingFile, UnreadableFile, WriteError, load_cases, load_tree
 from disc_model.data.variables import STATUSES
 from disc_model.errors import ParameterError
 from disc_model.simulation.case import CaseSpec
@@ -185,7 +178,7 @@ def test_a_file_that_cannot_be_written_stays_as_it_was(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    "read", [dm.load, dm.Result.load, load_result, lambda path: load_cases([path])]
+    "read", [dm.load, dm.Result.load, load_tree, lambda path: load_cases([path])]
 )
 def test_what_cannot_be_read_is_one_clear_error(read: Any, tmp_path: Path) -> None:
     path = tmp_path / "a.nc"

@@ -91,15 +91,7 @@ def _parameter_values(p: Parameters) -> dict[str, Any]:
 
 # ---- What functions return
 
-BY_METHODS = (
-    "stable",
-    "frequency",
-    "at_lower_bound",
-    "border",
-    "stick_time",
-    "slip_time",
-    "sliding_growth_rate",
-)
+BY_METHODS = ("stable", "frequency", "stick_time", "slip_time", "sliding_growth_rate")
 """Numbers and verdicts of results that are no fields of theirs, but follow from these."""
 OF_A_CYCLE = ("releases", "backward_releases", "reversals", "separations", "sticks", "stable")
 """Variables that have no value without a cycle, though the result of `floquet` has a count or a verdict."""
@@ -114,28 +106,20 @@ def result_dataset(result: Any, function: str = "") -> xr.Dataset:
     result : a dataset, a result of this package, whose attributes become variables, a mapping, or one number
     function : its name, if it is one of this package
     """
-    words = {"status": str(getattr(result, "status", "ok")), "message": message_of(result)}
-    data = result if isinstance(result, xr.Dataset) else _dataset_of(result, function)
+    kind = type(result).__name__ if is_dataclass(result) else function
+    if isinstance(result, xr.Dataset):
+        data = result
+    elif hasattr(result, "to_dataset"):
+        data = result.to_dataset()
+        stated = {name: x for name, x in data.attrs.items() if name not in ("message", "versions")}
+        data = data.assign(_dataset_of_values(stated, kind))
+    else:
+        data = _dataset_of_values(_values_of(result), kind)
     if not data.variables:
         rule = "must return a number, a mapping of numbers, words and arrays of one dimension, or a dataset"
         raise ParameterError(Fault(("function",), function, rule))
+    words = {"status": str(getattr(result, "status", "ok")), "message": message_of(result)}
     return with_real_parts(xr.Dataset({**words, **data.data_vars}, data.coords))
-
-
-def _dataset_of(result: Any, function: str) -> xr.Dataset:
-    """The dataset of a result, with its attributes as variables, or of its values."""
-    kind = type(result).__name__ if is_dataclass(result) else function
-    if not hasattr(result, "to_dataset"):
-        return _dataset_of_values(_values_of(result), kind)
-    data = result.to_dataset()
-    if hasattr(result, "border"):  # critical values, which have an axis of their own at each point
-        found = _dataset_of_values(_values_of(result), kind)
-        own = data["value"].attrs
-        for name in ("border", *(name for name in found if name in data)):
-            found[name].attrs = dict(data[name].attrs if name in data else own)
-        return found
-    stated = {name: x for name, x in data.attrs.items() if name not in ("message", "versions")}
-    return data.assign(_dataset_of_values(stated, kind))
 
 
 def _dataset_of_values(values: Mapping[Any, Any], kind: str) -> xr.Dataset:

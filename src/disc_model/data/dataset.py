@@ -4,7 +4,6 @@ times are stored, so that equal runs give equal bytes."""
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterable
 from functools import partial
 from pathlib import Path
@@ -13,7 +12,6 @@ from typing import Any
 import xarray as xr
 
 from disc_model.data.coded import table_of, with_texts_of_discs
-from disc_model.data.described import describe_run
 from disc_model.data.files import (
     MissingFile,
     UnreadableFile,
@@ -178,29 +176,9 @@ def _with_words(group: xr.Dataset) -> xr.Dataset:
     return group.assign(words)
 
 
-def load_result(path: str | Path, *, lazy: bool = False) -> xr.DataTree:
-    """As `load_tree`, of a file of a study's results: `UnreadableFile` has a remedy, and the variables of
-    a run say what they are in today's words."""
-    try:
-        tree = load_tree(path, lazy=lazy)
-    except UnreadableFile as error:
-        raise UnreadableFile(f"{error}\nDelete it, and run the same command again") from None
-    if "parameters_key" in tree.attrs:
-        describe_run(tree)
-    return tree
-
-
 def load_cases(paths: Iterable[str | Path]) -> dict[str, xr.DataTree]:
-    """As `load_result`, by the names of files, such as those of cases or studies."""
-    return {Path(path).stem: load_result(path) for path in paths}
-
-
-# ---- Provenance
-
-
-def json_attribute(value: Any) -> str:
-    """A mapping or list as JSON text, because netCDF attributes cannot hold these, None or bool."""
-    return json.dumps(value, sort_keys=True)
+    """As `load_tree`, by the names of files, such as those of cases or studies."""
+    return {Path(path).stem: load_tree(path) for path in paths}
 
 
 # ---- Access to the tree of one case, for claims and figures; a missing part is explained

@@ -164,9 +164,9 @@ def _variables(table: Mapping[str, Any]) -> dict[str, Variable]:
     return variables
 
 
-SERIES, SCALARS, PERTURBATIONS, COORDINATES, OF_STATES, _OF_GRIDS, _OF_A_MODE = (
+SERIES, SCALARS, PERTURBATIONS, COORDINATES, _OF_GRIDS, _OF_A_MODE = (
     _variables(_TABLES[part])
-    for part in ("series", "scalars", "perturbations", "modal", "of_states", "of_grids", "of_modes")
+    for part in ("series", "scalars", "perturbations", "modal", "of_grids", "of_modes")
 )
 OF_RESULTS = {name: _variables(part) for name, part in _TABLES["results"].items()}
 OF_RESULTS["Result"].update(SCALARS)
@@ -182,6 +182,8 @@ COMMON = _variables(_TABLES["common"])
 GROUPS = ("events", "final_state", "initial_state")  # groups in the file of a run, beside windows
 BESIDE_WINDOWS = frozenset({*GROUPS, *SCALARS, *Parameters.model_fields})
 """Groups and variables beside the windows in a file; no window may have such a name."""
+TAKEN = "must not be the name of a parameter or variable of results"
+"""The rule that says so."""
 CHOICES: dict[str, tuple[str, ...]] = {
     name: get_args(Parameters.model_fields[name].annotation)
     for name in ("normalization", "contact", "contact_force", "friction_law", "stretching")
@@ -246,14 +248,6 @@ def flag_names(variable: Any) -> np.ndarray:
     # the last one is that of a missing value
     known = np.array([*variable.attrs["flag_meanings"].split(), ""])
     return np.asarray(known[np.where(np.isnan(values), -1, values).astype(int)])
-
-
-def rule_of_taken(name: str) -> str:
-    """The rule that the name of a case or window breaks, as a part of a file has it."""
-    kind = "parameter" if name in Parameters.model_fields else "variable"
-    if name in GROUPS:
-        kind = "group"
-    return f"must not be the name of a {kind} of results"
 
 
 def stated_in(study: Any, what: str) -> dict[str, Any]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import logging
 from typing import TYPE_CHECKING
 
@@ -23,7 +24,6 @@ def run_case(spec: CaseSpec) -> xr.DataTree:
     import xarray as xr
 
     from disc_model.data.columns import scalars_dataset
-    from disc_model.data.dataset import json_attribute
 
     p = spec.parameters
     try:
@@ -53,7 +53,7 @@ def run_case(spec: CaseSpec) -> xr.DataTree:
             span = dict(zip(("kept_from", "kept_until"), kept, strict=True))
             tree["events"].dataset = events.isel(event=within).assign_attrs(span)
     if spec.start != Start():
-        tree.attrs["start"] = json_attribute(spec.start.model_dump())
+        tree.attrs["start"] = json.dumps(spec.start.model_dump(), sort_keys=True)
     tree.attrs |= {
         "source_hash": physics_hash(),
         "git_commit": git_commit(),

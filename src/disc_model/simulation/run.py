@@ -11,7 +11,7 @@ import numpy as np
 from pydantic import AfterValidator, BeforeValidator, InstanceOf, StrictBool, model_validator
 
 from disc_model.arrays import Array
-from disc_model.data.variables import BESIDE_WINDOWS, PHASES, rule_of_taken
+from disc_model.data.variables import BESIDE_WINDOWS, PHASES, TAKEN
 from disc_model.engine import audit, loop, record, transitions
 from disc_model.engine import state as motion
 from disc_model.engine.jit import compiled_for
@@ -62,7 +62,7 @@ def _window_name(name: str) -> str:
         rule = "the name of a window must begin with a letter, a digit or _, and have at most 60 characters and no /"
         raise ValueError(rule)
     if name in BESIDE_WINDOWS:
-        raise ValueError(f"the name of a window {rule_of_taken(name)}")
+        raise ValueError(f"the name of a window {TAKEN}")
     return name
 
 

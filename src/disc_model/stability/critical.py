@@ -35,6 +35,7 @@ SLIDING = "sliding"
 DIMENSIONS: Mapping[str, tuple[str, ...]] = {
     "value": (),
     "border": (),
+    "at_lower_bound": (),
     "resolution": (),
     "crossings": ("crossing",),
     "unstable_above": ("crossing",),
@@ -162,7 +163,7 @@ class Critical(EqualByValue):
         """All values computed, and the crossings, as a dataset, to save, or to handle by xarray and pandas.
 
         Along the parameter, by its name: `growth_rate` and `sliding_growth_rate` (1/s). Along `crossing`:
-        `crossings` and `unstable_above`. Alone: `value`, `border` and `resolution`. Attributes:
+        `crossings` and `unstable_above`. Alone: `value`, `border`, `at_lower_bound` and `resolution`. Attributes:
         `kind`, `message`, and the case's `parameters` in JSON.
 
         Examples

@@ -22,7 +22,7 @@ from pydantic import AfterValidator, BeforeValidator, Field, PlainValidator, Wit
 from yaml.constructor import ConstructorError
 
 from disc_model.data.files import MissingFile, unreadable
-from disc_model.data.variables import BESIDE_WINDOWS, PERTURBATIONS, values_text
+from disc_model.data.variables import BESIDE_WINDOWS, PERTURBATIONS, TAKEN, values_text
 from disc_model.disc.table import disc_of_table
 from disc_model.display import counted
 from disc_model.errors import Fault, ParameterError, raise_faults, require, suggestion
@@ -106,8 +106,7 @@ def inherit(base: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, An
 Name = Annotated[str, pydantic.StringConstraints(pattern=r"^[A-Za-z]\w*$", max_length=100)]
 
 
-_RULE = "must not be the name of a parameter or variable of results"
-WindowName = Annotated[Name, AfterValidator(must(lambda name: name not in BESIDE_WINDOWS, _RULE))]
+WindowName = Annotated[Name, AfterValidator(must(lambda name: name not in BESIDE_WINDOWS, TAKEN))]
 
 
 class RecordSpec(Strict):
