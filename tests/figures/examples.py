@@ -495,7 +495,7 @@ def bifurcation() -> Example:
         "kind": ["separating", "separating", "undecided"],
         "period_events": [1, 2, 0],
     }
-    options = {"section": "stroboscopic", "samples": 2, "transient": 9, "max_transient": 90}
+    options = {"samples": 2, "transient": 9, "max_transient": 90}
     numbers = {
         "exponent": exponents,
         "exponent_error": 0 * exponents + 0.001,

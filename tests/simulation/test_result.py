@@ -78,7 +78,7 @@ def test_a_result_stays_what_it_is_in_later_runs() -> None:
 def test_files_have_units_and_the_case(tmp_path: Path) -> None:
     RUN.save(tmp_path / "run.nc")
     tree = xr.open_datatree(tmp_path / "run.nc")
-    columns = tree["events"].drop_vars("direction").data_vars.values()
+    columns = tree["events"].to_dataset().drop_vars("direction").data_vars.values()
     assert [x.name for x in columns if "long_name" not in x.attrs] == []
     for name in ("late", "events"):
         assert tree[name].attrs["parameters"] == RUN.parameters.canonical_json

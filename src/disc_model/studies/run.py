@@ -177,9 +177,9 @@ def run_study(
 
     A bifurcation diagram:
 
-    >>> turns = {"study": "turns", "quantity": "bifurcation", "options": {"transient": 20}}
-    >>> turns |= {"base": {"N": 385}, "axes": {"Omega": [14, 15]}}
-    >>> dm.plot_sweep(dm.run_study(turns)).get_xlabel()
+    >>> study = {"study": "samples", "quantity": "bifurcation", "options": {"transient": 20}}
+    >>> study |= {"base": {"N": 385}, "axes": {"Omega": [14, 15]}}
+    >>> dm.plot_sweep(dm.run_study(study)).get_xlabel()
     'Speed Ω (rad/s)'
     """
     # needs yaml, of the extra `workflow`
