@@ -65,8 +65,7 @@ def scalars_dataset(
 def _parameter_values(p: Parameters) -> dict[str, Any]:
     """The parameters by name: numbers in place of words where these stand for one, and nan for what
     has no value, or does not count beside another one."""
-    values: dict[str, Any] = p.model_dump()
-    values["stretching"] = p.stretching
+    values: dict[str, Any] = dict(p)
     if p.contact_compliance == RESIDUAL:
         # nan if no modes are left out for it, which has made the case fail
         values["contact_compliance"] = math.nan

@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+import json
 import math
 import sys
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import pairwise
 from typing import Annotated, Any, Literal, NamedTuple, Self
 
+import numpy as np
 from pydantic import Field, create_model, field_validator, model_validator
 
 from disc_model.errors import Fault, as_text, require
-from disc_model.parameters import FORMAT, Parameters
-from disc_model.provenance import canonical_json, content_key
+from disc_model.parameters import Parameters
+from disc_model.provenance import content_key
 from disc_model.units import Count, Finite, Positive, Real, Seconds, Strict, Unit
 
 Time = Annotated[Real, Field(ge=0, allow_inf_nan=False), Unit("s")]
@@ -183,8 +185,6 @@ def resolved_windows(windows: Windows, start: float, t_end: float) -> Windows:
 
 # ---- Slow ramps of the drive speed or of the preload, and the values of Omega and N at any time
 
-RAMPED = ("Omega", "N")
-
 
 class Ramp(Interval):
     """A slow change of the drive speed or the preload: linear from `start` to `end`, and constant
@@ -263,13 +263,26 @@ def ramp_faults(p: Parameters, ramps: Sequence[Ramp], poincare: bool) -> Iterato
 def pieces(p: Parameters, ramps: Sequence[Ramp]) -> tuple[Piece, ...]:
     """The intervals of constant rates, in order, the first before any ramp; ramps to the present
     value do not count."""
-    lines = {name: line(p, ramps, name) for name in RAMPED}
-    knots = {time for knots in lines.values() for time, _, _ in knots}
+    knots: set[float] = set()
+    courses = []
+    for name in ("Omega", "N"):
+        times: list[float] = []
+        values = [getattr(p, name)]
+        for ramp in sorted(ramps, key=lambda ramp: ramp.start):
+            if ramp.parameter == name and ramp.to != values[-1]:
+                times += [ramp.start, ramp.end]
+                values += [values[-1], ramp.to]
+        knots.update(times)
+        courses.append((times, values[1:]) if times else ([0.0], values))
+    edges = np.array([-math.inf, *sorted(knots), math.inf])
+    columns = [edges[:-1], edges[1:]]
+    for course in courses:
+        at_edges = np.interp(edges, *course)
+        columns += [at_edges[:-1], np.diff(at_edges) / np.diff(edges)]
     parts: list[Piece] = []
     angle = 0.0
-    for begin, end in pairwise([*sorted(knots), math.inf]):
-        (Omega, Omega_rate), (N, N_rate) = (_at(lines[name], begin) for name in RAMPED)
-        parts.append(Piece(begin, end, angle, Omega, Omega_rate, N, N_rate))
+    for begin, end, *rest in np.transpose(columns).tolist():
+        parts.append(Piece(begin, end, angle, *rest))
         angle = parts[-1].angle_at(end)
     return tuple(parts)
 
@@ -278,29 +291,6 @@ def angle_of_drive(intervals: Sequence[Piece], time: float) -> float:
     """Angle by which the drive point has turned since the time 0, rad, from `pieces`."""
     now = next(piece for piece in reversed(intervals) if piece.begin <= time)
     return now.angle_at(time)
-
-
-def line(p: Parameters, ramps: Sequence[Ramp], name: str) -> list[tuple[float, float, float]]:
-    """Times at which the rate of Omega or N changes, with value and rate from then on; the first
-    time is -inf."""
-    value = getattr(p, name)
-    knots = [(-math.inf, value, 0.0)]
-    for ramp in sorted(ramps, key=lambda ramp: ramp.start):
-        if ramp.parameter == name and ramp.to != value:
-            if knots[-1][0] == ramp.start:  # one ramp continues where another ends
-                knots.pop()
-            knots += [
-                (ramp.start, value, (ramp.to - value) / (ramp.end - ramp.start)),
-                (ramp.end, ramp.to, 0.0),
-            ]
-            value = ramp.to
-    return knots
-
-
-def _at(knots: list[tuple[float, float, float]], time: float) -> tuple[float, float]:
-    """Value and rate from ``time`` on."""
-    begin, value, rate = next(knot for knot in reversed(knots) if knot[0] <= time)
-    return (value + rate * (time - begin) if rate else value), rate
 
 
 # ---- Initial states
@@ -365,7 +355,6 @@ class CaseSpec(Strict):
     )
     start: Start = Start()
     ramps: tuple[Ramp, ...] = ()
-    format: Literal[1] = FORMAT
 
     @property
     def sections(self) -> dict[str, Window | Poincare]:
@@ -384,12 +373,12 @@ class CaseSpec(Strict):
     def canonical(self) -> str:
         """JSON text that is equal for equal cases, however they were written; `model_validate_json`
         reads it."""
-        return canonical_json(self.model_dump())
+        return json.dumps(self.model_dump(mode="json"), sort_keys=True)
 
     @property
     def beside(self) -> str:
         """JSON text of all fields but the parameters."""
-        return canonical_json(self.model_dump(exclude={"parameters"}))
+        return json.dumps(self.model_dump(mode="json", exclude={"parameters"}), sort_keys=True)
 
     @property
     def key(self) -> str:
