@@ -490,7 +490,7 @@ def bifurcation() -> Example:
     exponents = np.array([[-0.11], [-0.12], [-0.02]])
     columns = {
         "psi": psi,
-        "phase": np.full((3, 2), "slip"),
+        "phase": np.full((3, 2), "separation"),
         "settled": ["settled", "settled", "undecided"],
         "kind": ["separating", "separating", "undecided"],
         "period_events": [1, 2, 0],
@@ -516,7 +516,7 @@ def bifurcation() -> Example:
         {"x": "Omega", "overlays": {"lyapunov": "l"}, "paper_cases": places},
         {"study": study, "lyapunov": other},
         (
-            Shown(0, "y", "Angle ψ, once per turn of the drive", psi, "rad", "linear"),
+            Shown(0, "y", "Angle ψ", psi, "rad", "linear"),
             Shown(0, "x", SPEED, [*SPEEDS, 13.5], "rad/s", "linear"),
             Shown(1, "y", "Events in a period", [1, 2], "", "log"),
             Shown(2, "x", SPEED, SPEEDS, "rad/s", "linear"),
