@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 import warnings
+from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from pydantic import InstanceOf
 
 from disc_model.errors import as_text, raise_faults, require
-from disc_model.parameters import Parameters, foreign_case
+from disc_model.parameters import Parameters
 from disc_model.simulation import states
 from disc_model.simulation.case import (
     Execution,
@@ -22,7 +23,7 @@ from disc_model.simulation.case import (
 from disc_model.simulation.result import Result
 from disc_model.simulation.run import Request, Run
 from disc_model.simulation.states import State
-from disc_model.units import in_si
+from disc_model.units import Tolerance, checked
 
 _PLAIN = Execution()
 
@@ -116,13 +117,14 @@ def simulate(  # noqa: PLR0913
     return Run(asked.model_copy(update=resolved), start).complete()
 
 
+@checked
 def snapshots(
     case: Parameters,
-    times: ArrayLike,
+    times: states.Times,
     *,
-    tol: float = 1e-10,
-    initial_state: State | None = None,
-    ramps: Ramp | tuple[Ramp, ...] = (),
+    tol: Tolerance = 1e-10,
+    initial_state: InstanceOf[State] | None = None,
+    ramps: Any = (),
 ) -> tuple[State, ...]:
     """States of the system at given times, with its modal coordinates.
 
@@ -150,20 +152,11 @@ def snapshots(
     >>> [state.phase for state in dm.snapshots(dm.Parameters(N=385, Omega=15.1), [0.0, 0.006])]
     ['stick', 'slip']
     """
-    raise_faults(foreign_case(case))
-    wanted = states.finite_numbers(in_si(times, "s", [], ()))
-    ascend = wanted is not None and not np.any(np.diff(wanted) < 0)
-    is_state = isinstance(initial_state, State | None)
-    require(
-        (is_state, "initial_state", initial_state, "must be a State"),
-        (ascend, "times", times, "must be finite and ascend"),
-    )
-    assert wanted is not None
     state = initial_state or states.static_start(case)
-    rule = f"must be >= {as_text(state.time)} (the time of the initial state)"
-    require((not np.any(wanted < state.time), "times", times, rule))
+    rule = f"must be >= {as_text(state.time)} (the time of the initial state), and ascend"
+    require((np.all(np.diff(times, prepend=state.time) >= 0), "times", times, rule))
     reached: list[State] = []
-    for time in wanted.tolist():
+    for time in times.tolist():
         if time > state.time:
             run = simulate(case, time, tol=tol, events=False, initial_state=state, ramps=ramps)
             state = run.raise_for_status().final_state

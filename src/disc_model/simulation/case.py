@@ -321,6 +321,13 @@ class Prerun(Strict):
         return {name: getattr(checked, name) for name in values}
 
 
+Perturbation = Annotated[
+    dict[Literal["u", "u_velocity", "f"], Finite],
+    Unit({"u": "m", "u_velocity": "m/s", "f": "rad/s"}),
+]
+"""What is added to coordinates of a start."""
+
+
 class Start(Strict):
     """The state from which a motion starts: the static start, unless one of these keys is given.
 
@@ -332,10 +339,9 @@ class Start(Strict):
     prerun: Prerun | None = Field(
         None, description="another case that is simulated first, with parameters and time"
     )
-    perturbation: Annotated[
-        dict[Literal["u", "u_velocity", "f"], Finite],
-        Unit({"u": "m", "u_velocity": "m/s", "f": "rad/s"}),
-    ] = Field({}, description="what is added to coordinates of the start, u, u_velocity or f")
+    perturbation: Perturbation = Field(
+        {}, description="what is added to coordinates of the start, u, u_velocity or f"
+    )
 
 
 # ---- One case ready to be run, and its content address

@@ -287,10 +287,8 @@ class Result(Summarised, EqualByValue):
                     fields[which] = _state_of(fields[which])
             samples = {}
             for name in fields["windows"]:
-                columns = tree[name].to_dataset().variables
-                samples[name] = {
-                    key: columns[key].values for key in sorted(columns, key="time".__ne__)
-                }
+                columns = tree[name].to_dataset().variables.items()
+                samples[name] = {str(key): x.values.astype(float) for key, x in columns}
             return cls(
                 **fields | {"statistics": {**fields["statistics"], "wall_time": math.nan}},
                 event_rows=np.stack(

@@ -112,7 +112,8 @@ def stack(
             whole = len(present) == len(rows) and len(shapes) == 1
             array = _empty([each.dtype for each in present.values()], (len(rows), *shape), whole)
         for i, each in present.items():
-            array[(i, *map(slice, each.shape))] = each.values
+            cells: Any = (i, *map(slice, each.shape))
+            array[cells] = each.values
         is_truth = first.dtype.kind == "b" and array.dtype.kind == "f"
         attrs = first.attrs | (TRUTH if is_truth else {})
         stacked = array.reshape((*sizes.values(), *shape))
