@@ -141,7 +141,7 @@ def test_stacked_results_keep_kinds_and_end_in_what_is_missing() -> None:
         xr.Dataset({"n": 1, "x": ("i", [1.0, 2.0]), "word": "a", "stable": True}),
         xr.Dataset({"n": 2, "x": ("i", [3.0]), "word": "bcd"}),
     ]
-    found = stack(rows, {"point": 2})
+    found = stack(rows, {"N": pd.DataFrame({"N": [1.0, 2.0]})})
     assert found["n"].dtype.kind == "i"
     assert found["word"].values.tolist() == ["a", "bcd"]
     np.testing.assert_array_equal(found["x"], [[1, 2], [3, math.nan]])

@@ -11,7 +11,7 @@ from typing import Any
 
 import xarray as xr
 
-from disc_model.data.coded import table_of, with_texts_of_discs
+from disc_model.data.coded import table_of
 from disc_model.data.files import (
     MissingFile,
     UnreadableFile,
@@ -36,9 +36,8 @@ def save(data: Any, path: str | Path) -> None:
 
     Parameters
     ----------
-    data : an xarray.Dataset or xarray.DataTree of numbers and words; discs along a dimension are written as text, in
-        JSON, and None beside them, the plate, as "plate". A `Branch` and what `critical` returns are written as the
-        dataset of their method `to_dataset`, and an xarray.DataArray that has a name as a dataset of it alone. A
+    data : an xarray.Dataset or xarray.DataTree of numbers and words. A `Branch` and what `critical` returns are written
+        as the dataset of their method `to_dataset`, and an xarray.DataArray that has a name as a dataset of it alone. A
         `Result` is written by its method `save`, to .nc, and read by its method `load`
     path : its suffix says how. ".nc": netCDF 4. ".csv": a table of pandas with a row for each point, units in the
         heads, such as "Omega (rad s-1)", and words for what stands as numbers in `data`. Numbers that stand along
@@ -80,9 +79,7 @@ def save(data: Any, path: str | Path) -> None:
 def _as_dataset(data: Any) -> Any:
     """A dataset or tree as it is, and an array or a result as its dataset; raises `ParameterError`."""
     rule = "must be an xarray.Dataset or xarray.DataTree"
-    if isinstance(data, xr.Dataset):
-        return with_texts_of_discs(data)
-    if isinstance(data, xr.DataTree):
+    if isinstance(data, xr.Dataset | xr.DataTree):
         return data
     require((hasattr(data, "to_dataset"), "data", data, rule))
     try:

@@ -10,12 +10,14 @@ from types import MappingProxyType
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import xarray as xr
 
-from disc_model.data.variables import PERTURBATIONS, TRUTH, Variable
+from disc_model.data.variables import PERTURBATIONS, TRUTH, Variable, attributes
 from disc_model.display import progress_bar
 from disc_model.mode_units import column_of
-from disc_model.parameters import Parameters
+from disc_model.parameters import PLATE_NAME, Parameters
+from disc_model.studies.grid import WORDS
 from disc_model.studies.quantity import NUMERICAL
 
 Point = Mapping[str, Any]
@@ -87,7 +89,7 @@ def compute(
 
 def stack(
     results: Sequence[xr.Dataset],
-    sizes: Mapping[str, int],
+    dims: Mapping[str, pd.DataFrame],
     columns: Mapping[str, Variable] = MappingProxyType({}),
 ) -> xr.Dataset:
     """Results along the dimensions of a grid.
@@ -95,7 +97,7 @@ def stack(
     Parameters
     ----------
     results : at all points, in the order of the dimensions, of which the last one varies first
-    sizes : of the dimensions, by name
+    dims : what varies along each dimension, by its name
     columns : what the table knows of variables, such as what stands for a missing value; elsewhere that is nan, or
         "" among words
     """
@@ -116,9 +118,24 @@ def stack(
             array[cells] = each.values
         is_truth = first.dtype.kind == "b" and array.dtype.kind == "f"
         attrs = first.attrs | (TRUTH if is_truth else {})
-        stacked = array.reshape((*sizes.values(), *shape))
-        variables[name] = xr.Variable((*sizes, *first.dims), stacked, attrs)
-    return xr.Dataset(variables, coords)
+        stacked = array.reshape((*map(len, dims.values()), *shape))
+        variables[name] = xr.Variable((*dims, *first.dims), stacked, attrs)
+    return xr.Dataset(variables, coords).assign_coords(_varied(dims))
+
+
+def _varied(dims: Mapping[str, pd.DataFrame]) -> dict[str, Any]:
+    """What varies as coordinates, whose words have no unit; discs and other objects are words too."""
+    coordinates = {}
+    for dim, frame in dims.items():
+        for name in map(str, frame):
+            values = [PLATE_NAME if value is None else value for value in frame[name]]
+            if not all(isinstance(value, int | float | str) for value in values):
+                values = [*map(str, values)]
+            attrs = attributes(name) if is_of_case(name) or name in PERTURBATIONS else {}
+            if name in WORDS:
+                attrs = {"long_name": attrs["long_name"]}
+            coordinates[name] = (dim, values, attrs)
+    return coordinates
 
 
 def _common_coordinates(

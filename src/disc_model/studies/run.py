@@ -15,12 +15,12 @@ import xarray as xr
 from disc_model.data.coded import table_of
 from disc_model.data.dataset import CONVENTIONS
 from disc_model.data.described import described
-from disc_model.data.variables import Variable, attributes
+from disc_model.data.variables import Variable
 from disc_model.parameters import Disc
 from disc_model.provenance import git_commit, physics_hash, versions_text
 from disc_model.simulation.named_case import run_case
 from disc_model.studies.compute import Call, compute, stack
-from disc_model.studies.grid import VARIED, WORDS, Points, case_of
+from disc_model.studies.grid import VARIED, Points, case_of
 from disc_model.studies.quantity import failed, quantity_of
 
 if TYPE_CHECKING:
@@ -53,12 +53,11 @@ def run_job(job: str, known: Iterable[xr.Dataset] = ()) -> xr.Dataset:
     """
     layout = json.loads(job)
     points = layout["points"]
-    there = {tuple(point.items()): row for part in known for point, row in points_of(part)}
-    missing = [point for point in points if tuple(point.items()) not in there]
-    for point, row in zip(missing, compute(call_of(layout), missing), strict=True):
-        there[tuple(point.items())] = row
+    there = {str(point): row for part in known for point, row in points_of(part)}
+    missing = [point for point in points if str(point) not in there]
+    there |= zip(map(str, missing), compute(call_of(layout), missing), strict=True)
     log.info("%d of %d points computed", len(missing), len(points))
-    rows = [there[tuple(point.items())] for point in points]
+    rows = [there[str(point)] for point in points]
     return along_points(points, rows, quantity_of(layout["quantity"]).columns)
 
 
@@ -66,18 +65,17 @@ def along_points(
     points: Points, rows: Sequence[xr.Dataset], columns: Mapping[str, Variable]
 ) -> xr.Dataset:
     """Results in one dataset, with what varies as coordinates along `point`."""
-    varied = {name: (POINT, [*values]) for name, values in pd.DataFrame(points).items()}
-    results = stack(rows, {POINT: len(rows)}, columns).assign_coords(varied)
-    return results.assign_attrs(names=json.dumps([*varied]))
+    frame = pd.DataFrame(points)
+    return stack(rows, {POINT: frame}, columns).assign_attrs(names=json.dumps([*frame]))
 
 
-def points_of(part: xr.Dataset) -> Iterable[tuple[dict[str, Any], xr.Dataset]]:
+def points_of(part: xr.Dataset) -> Iterable[tuple[dict[Any, Any], xr.Dataset]]:
     """The points of a job's results, and the result at each."""
     names = json.loads(part.attrs["names"])
     results = part.drop_vars(names)
-    columns = [part[name].values.tolist() for name in names]
-    for i, values in enumerate(zip(*columns, strict=True)):
-        yield dict(zip(names, values, strict=True)), results.isel(point=i)
+    points = pd.DataFrame({name: part[name].values for name in names}).to_dict("records")
+    for i, point in enumerate(points):
+        yield point, results.isel(point=i)
 
 
 def merge(layout: Layout, results: Sequence[xr.Dataset], attrs: Mapping[str, str]) -> xr.Dataset:
@@ -91,18 +89,11 @@ def merge(layout: Layout, results: Sequence[xr.Dataset], attrs: Mapping[str, str
     attrs : of the study
     """
     quantity = quantity_of(layout["quantity"])
-    coords = {}
-    sizes = {}
-    firsts = {}
-    for dim, columns in layout["dims"].items():
-        firsts[dim], *_ = columns
-        sizes[dim] = len(columns[firsts[dim]])
-        for name, values in columns.items():
-            coords[name] = (dim, values, coordinate_attributes(name))
-    study = stack(results, sizes, quantity.columns).assign_coords(coords)
+    dims = {dim: pd.DataFrame(columns) for dim, columns in layout["dims"].items()}
+    study = stack(results, dims, quantity.columns)
 
     def rank(dim: Any) -> int:
-        name = firsts.get(dim, dim)
+        name = dims[dim].columns[0] if dim in dims else dim
         return VARIED.index(name) if name in VARIED else len(VARIED)
 
     stated = {
@@ -121,12 +112,6 @@ def merge(layout: Layout, results: Sequence[xr.Dataset], attrs: Mapping[str, str
     }
     ranked = study.transpose(*sorted(study.dims, key=rank)).assign_attrs(every)
     return described(ranked, quantity.name, layout["options"])
-
-
-def coordinate_attributes(name: str) -> dict[str, Any]:
-    """Attributes of what varies as a coordinate; words have no unit."""
-    known = attributes(name)
-    return {"long_name": known["long_name"]} if name in WORDS else known
 
 
 # ---- Points of which there is something to say

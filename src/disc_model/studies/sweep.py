@@ -20,7 +20,6 @@ from disc_model.parameters import Parameters, foreign_case
 from disc_model.provenance import versions_text
 from disc_model.studies.compute import Call, compute, is_of_case, stack
 from disc_model.studies.grid import Points, expand
-from disc_model.studies.run import coordinate_attributes
 from disc_model.units import in_si, is_number
 
 
@@ -91,7 +90,7 @@ def sweep(
     call = Call(partial(_gathered, function, name, {*points, *dims}), case.replace, options)
     rows: Points = points.to_dict("records")
     results = compute(call, rows, map=map, title=name, progress=progress)
-    found = stack(results, {dim: len(frame) for dim, frame in dims.items()})
+    found = stack(results, dims)
     messages = found["message"].values.ravel().tolist()
     if all(text.startswith("ParameterError") for text in messages):
         raise ParameterError(f"no point of the sweep has a result: {messages[0]}")
@@ -105,7 +104,7 @@ def sweep(
         "parameters": case.canonical_json,
         "versions": versions_text(),
     }
-    return found.assign_coords(_coordinates(dims, over)).assign_attrs(attrs)
+    return found.assign_attrs(attrs)
 
 
 def _gathered(
@@ -155,15 +154,3 @@ def _column(name: str, values: Any, case: Parameters) -> list[Any]:
         column.append(float(value) if is_number(value) else value)
     raise_faults(faults)
     return column
-
-
-def _coordinates(dims: Mapping[str, pd.DataFrame], over: Mapping[str, Any]) -> dict[str, Any]:
-    """Values and attributes of all that varies, along their dimensions; mappings are words."""
-    coordinates: dict[str, Any] = {}
-    for dim, frame in dims.items():
-        for name in map(str, frame):
-            values = [*frame[name]]
-            plain = name not in over or all(isinstance(x, int | float | str) for x in values)
-            attrs = {} if name in over else coordinate_attributes(name)
-            coordinates[name] = (dim, values if plain else [*map(str, values)], attrs)
-    return coordinates
