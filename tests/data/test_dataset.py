@@ -201,16 +201,17 @@ def tree_of(p: dm.Parameters, **spec: Any) -> xr.DataTree:
 
 @pytest.mark.compiled
 def test_equal_cases_give_equal_bytes(tmp_path: Path) -> None:
-    windows = (
-        ("history", dm.Window(start=0, stop=0.04, rate=1000, envelope=10)),
-        ("P", dm.Window(start=0.01, stop=0.02, rate=2000, theta=0.5)),
-    )
-    spec = {"windows": windows, "poincare": dm.Poincare(theta=2.0), "events": (0.01, 0.05)}
+    windows = {
+        "history": dm.Window(start=0, stop=0.04, rate=1000, envelope=10),
+        "pressed": dm.Window(start=0.01, stop=0.02, rate=2000, theta=0.5),
+    }
+    events = {"start": 0.01, "stop": 0.05}
+    record = {"windows": windows, "poincare": dm.Poincare(theta=2.0), "events": events}
     for file in ("a.nc", "b.nc"):
-        dm.save(tree_of(CASE, **spec), tmp_path / file)
+        dm.save(tree_of(CASE, record=record), tmp_path / file)
     assert (tmp_path / "a.nc").read_bytes() == (tmp_path / "b.nc").read_bytes()
     tree = load_tree(tmp_path / "a.nc")
-    assert {*tree.children} == {"events", "history", "P", "poincare"}
+    assert {*tree.children} == {"events", "history", "pressed", "poincare"}
     for node in tree.subtree:
         for name, variable in node.to_dataset(inherit=False).variables.items():
             assert variable.attrs["units"], name

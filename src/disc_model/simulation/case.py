@@ -10,12 +10,21 @@ from itertools import pairwise
 from typing import Annotated, Any, Literal, NamedTuple, Self
 
 import numpy as np
-from pydantic import Field, create_model, field_validator, model_validator
+from pydantic import (
+    AfterValidator,
+    Field,
+    PlainValidator,
+    StringConstraints,
+    create_model,
+    field_validator,
+    model_validator,
+)
 
-from disc_model.errors import Fault, as_text, require
+from disc_model.data.variables import BESIDE_WINDOWS, TAKEN
+from disc_model.errors import Fault, as_text, raise_faults, require
 from disc_model.parameters import Parameters
 from disc_model.provenance import content_key
-from disc_model.units import Count, Finite, Positive, Real, Seconds, Strict, Unit
+from disc_model.units import Count, Finite, Positive, Real, Seconds, Strict, Tolerance, Unit, must
 
 Time = Annotated[Real, Field(ge=0, allow_inf_nan=False), Unit("s")]
 Stop = Annotated[Real, Field(ge=0), Unit("s")]
@@ -344,47 +353,64 @@ class Start(Strict):
     )
 
 
-# ---- One case ready to be run, and its content address
+# ---- Named cases of studies, and their content addresses
+
+Name = Annotated[str, StringConstraints(pattern=r"^[A-Za-z]\w*$", max_length=100)]
+WindowName = Annotated[Name, AfterValidator(must(lambda name: name not in BESIDE_WINDOWS, TAKEN))]
+_CALLED = {"title", "reference"}
 
 
-class CaseSpec(Strict):
-    """A case ready to be run: everything that a simulation depends on, and nothing else."""
+def without_null(parts: dict[str, Any]) -> dict[str, Any]:
+    """The parts of a file that null does not drop."""
+    return {name: part for name, part in parts.items() if part is not None}
 
-    parameters: Parameters
-    t_end: float
-    tol: float = 1e-10
-    stop_at: Literal["first_separation"] | None = None
-    windows: tuple[tuple[str, Window], ...] = ()
+
+class RecordSpec(Strict):
+    """What is recorded of a case. Figures and claims refer to windows by their names."""
+
+    windows: Annotated[dict[WindowName, Window | None], AfterValidator(without_null)] = Field({})
     poincare: Poincare | None = None
-    events: tuple[float, float] | Span | None = (
-        None  # a span if it counts back from where the run stops
-    )
-    start: Start = Start()
-    ramps: tuple[Ramp, ...] = ()
+    events: bool | Span = True
 
     @property
     def sections(self) -> dict[str, Window | Poincare]:
         """Windows by name, and the Poincare section as ``poincare``, if it is recorded."""
-        sections: dict[str, Window | Poincare] = dict(self.windows)
-        if self.poincare is not None:
-            sections["poincare"] = self.poincare
-        return sections
+        return without_null({**self.windows, "poincare": self.poincare})
+
+
+class CaseSpec(Strict):
+    """A named simulation of a study: what it depends on, and how it is called."""
+
+    title: str = ""
+    reference: str = ""
+    parameters: Annotated[
+        Parameters, PlainValidator(Parameters.model_validate, json_schema_input_type=SomeParameters)
+    ]
+    t_end: Seconds
+    tol: Tolerance = 1e-10
+    stop_at: Literal["first_separation"] | None = None
+    start: Start = Start()
+    ramps: tuple[Ramp, ...] = ()
+    record: RecordSpec = RecordSpec()
+
+    @model_validator(mode="after")
+    def _consistent(self) -> Self:
+        """Check the rules between the values of the case."""
+        poincare = self.record.poincare is not None
+        raise_faults([*ramp_faults(self.parameters, self.ramps, poincare)])
+        self.longest_sections  # noqa: B018
+        return self
 
     @property
     def longest_sections(self) -> Windows:
-        """The same, with absolute times in a run that does not stop before its end."""
-        return resolved_windows(self.sections, 0.0, self.t_end)
+        """What is recorded, with absolute times in a run that does not stop before its end."""
+        return resolved_windows(self.record.sections, 0.0, self.t_end)
 
     @property
     def canonical(self) -> str:
-        """JSON text that is equal for equal cases, however they were written; `model_validate_json`
-        reads it."""
-        return json.dumps(self.model_dump(mode="json"), sort_keys=True)
-
-    @property
-    def beside(self) -> str:
-        """JSON text of all fields but the parameters."""
-        return json.dumps(self.model_dump(mode="json", exclude={"parameters"}), sort_keys=True)
+        """JSON text that is equal for equal cases, however they were written and are called;
+        `model_validate_json` reads it."""
+        return json.dumps(self.model_dump(mode="json", exclude=_CALLED), sort_keys=True)
 
     @property
     def key(self) -> str:

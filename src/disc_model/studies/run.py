@@ -174,8 +174,8 @@ def run_study(
     study = parse_study(source, folder) if isinstance(source, Mapping) else load_study(source)
     grids, names = study.all_grids([folder])
     datasets: dict[str, Any] = {name: _run_grid(grids[name], map, progress) for name in names}
-    if study.specs:
-        trees = dict(zip(study.specs, map(run_case, study.specs.values()), strict=True))
+    if study.cases:
+        trees = dict(zip(study.cases, map(run_case, study.cases.values()), strict=True))
         datasets["cases"] = xr.DataTree(children=trees)
     if len(datasets) == 1:
         return next(iter(datasets.values()))

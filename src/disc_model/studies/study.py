@@ -12,7 +12,7 @@ from functools import cached_property, reduce
 from glob import glob
 from pathlib import Path
 from types import MappingProxyType
-from typing import Annotated, Any, Literal, NamedTuple, Self
+from typing import Annotated, Any, NamedTuple, Self
 
 import numpy as np
 import pandas as pd
@@ -22,7 +22,7 @@ from pydantic import AfterValidator, BeforeValidator, Field, PlainValidator, Wit
 from yaml.constructor import ConstructorError
 
 from disc_model.data.files import MissingFile, unreadable
-from disc_model.data.variables import BESIDE_WINDOWS, PERTURBATIONS, TAKEN, values_text
+from disc_model.data.variables import PERTURBATIONS, values_text
 from disc_model.disc.table import disc_of_table
 from disc_model.display import counted
 from disc_model.errors import Fault, ParameterError, raise_faults, require, suggestion
@@ -30,19 +30,10 @@ from disc_model.figures.schema import CasePlot, Kind, Plot
 from disc_model.figures.shown import IN_WORDS, factors_of
 from disc_model.parameters import Disc, Parameters
 from disc_model.provenance import content_key, physics_hash
-from disc_model.simulation.case import (
-    CaseSpec,
-    Poincare,
-    Ramp,
-    SomeParameters,
-    Span,
-    Start,
-    Window,
-    ramp_faults,
-)
+from disc_model.simulation.case import CaseSpec, Name, RecordSpec, SomeParameters, without_null
 from disc_model.studies.grid import Columns, case_of, dimensions, expand, thinned
 from disc_model.studies.quantity import HOMES, Quantity, quantity_of
-from disc_model.units import Count, Seconds, Strict, Tolerance, must
+from disc_model.units import Count, Strict, Tolerance
 
 ALL_MOTIONS = 100  # points of a grid up to which a motion of each is stored, some 3 kB each
 GRID_KEYS = frozenset({"options", "axes", "zip", "points_per_job", "discs"})
@@ -101,55 +92,6 @@ def inherit(base: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, An
     return merged
 
 
-# ---- Named cases
-
-Name = Annotated[str, pydantic.StringConstraints(pattern=r"^[A-Za-z]\w*$", max_length=100)]
-
-
-WindowName = Annotated[Name, AfterValidator(must(lambda name: name not in BESIDE_WINDOWS, TAKEN))]
-
-
-class RecordSpec(Strict):
-    """What is recorded of a case. Figures and claims refer to windows by their names."""
-
-    windows: dict[WindowName, Window | None] = Field({})  # None drops one that is inherited
-    poincare: Poincare | None = None
-    events: bool | Span = True
-
-
-class NamedCase(Strict):
-    """One named simulation of a study."""
-
-    title: str = ""
-    reference: str = ""
-    parameters: Annotated[
-        Parameters, PlainValidator(Parameters.model_validate, json_schema_input_type=SomeParameters)
-    ]
-    t_end: Seconds
-    tol: Tolerance = 1e-10
-    stop_at: Literal["first_separation"] | None = None
-    start: Start = Start()
-    ramps: tuple[Ramp, ...] = ()
-    record: RecordSpec = RecordSpec()
-
-    @cached_property
-    def spec(self) -> CaseSpec:
-        """What is simulated; raises `ParameterError` with places inside the case."""
-        record = self.record
-        raise_faults([*ramp_faults(self.parameters, self.ramps, record.poincare is not None)])
-        windows = tuple((name, x) for name, x in record.windows.items() if x is not None)
-        events = Span() if record.events is True else record.events or None
-        beside = {"windows": windows, "poincare": record.poincare, "events": events}
-        own = {name: getattr(self, name) for name in CaseSpec.model_fields if hasattr(self, name)}
-        return CaseSpec(**own, **beside)
-
-    @pydantic.model_validator(mode="after")
-    def _consistent(self) -> Self:
-        """Check the rules between the values of the case, and names of windows."""
-        self.spec.longest_sections  # noqa: B018
-        return self
-
-
 # ---- Figures
 
 
@@ -169,11 +111,6 @@ _KIND = Annotated[
 ]
 Figure = Annotated[Kind, PlainValidator(_figure, json_schema_input_type=_KIND)]
 """A figure of any kind; `workflow/schemas/write_schema.py` adds the keys of each kind to the schema."""
-
-
-def _given(figures: dict[str, Kind | None]) -> dict[str, Any]:
-    """The figures that null does not drop."""
-    return {name: plot for name, plot in figures.items() if plot is not None}
 
 
 class FigureEntry(NamedTuple):
@@ -211,17 +148,19 @@ class Study(Strict):
     study: Name
     title: str = ""
     base: SomeParameters = SomeParameters()
-    figures: Annotated[dict[Name, Figure], AfterValidator(_given)] = Field({})
+    figures: Annotated[dict[Name, Figure], AfterValidator(without_null)] = Field({})
     tol: Tolerance | None = 1e-10  # of all cases, as `record`
     record: RecordSpec = RecordSpec()
-    cases: Annotated[dict[Name, NamedCase], Field(min_length=1)] = Field({})
+    cases: Annotated[dict[Name, CaseSpec], Field(min_length=1)] = Field({})
     claims: bool = False  # whether the paper's claims and tables are checked against the cases
     quantity: Annotated[
         str | None,
         AfterValidator(lambda name: name and quantity_of(name).name),
         WithJsonSchema({"enum": [*HOMES]}),
     ] = None
-    options: Annotated[Any, PlainValidator(_options), WithJsonSchema({"type": "object"})] = None
+    options: Annotated[Any, PlainValidator(_options), WithJsonSchema({"type": "object"})] = Field(
+        {}, validate_default=True
+    )
     axes: Columns = Columns()
     zip: Annotated[
         tuple[Columns, ...],
@@ -241,7 +180,7 @@ class Study(Strict):
         if self.has_grid:
             raise_faults([*self._wrong_axes()])
             self.case  # noqa: B018
-        recorded = {name: spec.longest_sections for name, spec in self.specs.items()}
+        recorded = {name: spec.longest_sections for name, spec in self.cases.items()}
         faults = []
         for name, plot in self.figures.items():
             wrong: Iterable[Fault] = ()
@@ -254,11 +193,6 @@ class Study(Strict):
         return self
 
     # ---- Named cases
-
-    @property
-    def specs(self) -> dict[str, CaseSpec]:
-        """What is simulated of each case."""
-        return {name: case.spec for name, case in self.cases.items()}
 
     @property
     def labels(self) -> dict[str, dict[str, str]]:
@@ -435,7 +369,7 @@ class Study(Strict):
         """A figure, whose caption states what its cases are: the values that differ from Table 1 and do not
         vary."""
         if isinstance(plot, CasePlot):
-            cases = [self.specs[case].parameters for case in plot.cases]
+            cases = [self.cases[case].parameters for case in plot.cases]
             values = "; ".join(dict.fromkeys(values_text(dict(p)) for p in cases))
             modes = " and ".join(
                 IN_WORDS[each] for each in sorted({p.normalization for p in cases})
@@ -543,8 +477,7 @@ def parse_study(raw: Any, folder: Path, source: str = "study") -> Study:
 
 
 def _inherited(raw: Mapping[str, Any]) -> dict[str, Any]:
-    """The content of a file, in which each case has what it inherits, options are a mapping, and discs along
-    an axis that `discs` does not name stand for themselves."""
+    """The content of a file, in which each case has what it inherits, and discs along an axis that `discs` does not name stand for themselves."""
     content = dict(raw)
     keys = {"base": "parameters", "record": "record", "tol": "tol"}
     shared = {inner: content[key] for key, inner in keys.items() if content.get(key) is not None}
@@ -554,8 +487,6 @@ def _inherited(raw: Mapping[str, Any]) -> dict[str, Any]:
             name: {"parameters": {}, **inherit(shared, case)} if isinstance(case, Mapping) else case
             for name, case in cases.items()
         }
-    if content.get("quantity") is not None:
-        content.setdefault("options", {})
     discs = dict(mapping(content.get("discs")))
     for group in (content.get("axes"), *_several(content.get("zip"))):
         for name in _several(mapping(group).get("disc", [])):
