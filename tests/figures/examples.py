@@ -89,7 +89,7 @@ def study_of(
         return found(quantity, cells, **along)
 
     def result(case: Parameters, **options: Any) -> xr.Dataset:
-        kicks = options["start"].perturbation if "start" in options else {}
+        kicks = dict(options["start"]) if "start" in options else {}
         place = []
         for name, values in axes.items():
             value = getattr(case, name, kicks.get(name.removeprefix("perturbation_"), 0))

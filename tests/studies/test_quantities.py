@@ -180,17 +180,6 @@ FAULTS: list[tuple[str, dict[str, Any], str]] = [
     ("hysteresis", SWEEP | {"dwell": 0.1}, "evaluation_time=5 must be <= dwell=0.1"),
     ("hysteresis", SWEEP | {"max_dwell": 5}, "max_dwell=5 must be >= dwell=10"),
     ("hysteresis", SWEEP | {"step": 3}, "must be a multiple of step=3"),
-    ("hysteresis", SWEEP | {"name": "Nn"}, "name='Nn': must be a number of the case"),
-    (
-        "hysteresis",
-        SWEEP | {"name": "h", "bounds": (1e-3, 2e-3), "step": 1e-3},
-        "shapes of the modes",
-    ),
-    (
-        "hysteresis",
-        SWEEP | {"name": "mu_k", "bounds": (0.2, 0.6), "step": 0.2},
-        "must be <= mu_s=0.4",
-    ),
     ("branches", SWEEP | {"sweep_from": 21}, "sweep_from=21 must be <= the greatest value, 20"),
     ("locking", {"record": 5, "max_record": 4}, "record=5 must be <= max_record=4"),
     (
@@ -351,17 +340,6 @@ def test_a_sweep_has_an_onset_and_an_end_or_says_why_not(
     assert found["offset_speed"].item() == pytest.approx(offset, nan_ok=True)
     assert said in message_of(found)
     assert bool(message_of(found)) == bool(said)
-
-
-@pytest.mark.compiled
-def test_a_sweep_of_the_preload_goes_on_from_load_to_load() -> None:
-    stays = {"dwell": 10, "max_dwell": 40, "evaluation_time": 1, "tol": 1e-8}
-    sweep = dm.hysteresis(P, (300, 420), name="N", step=40, **stays)
-    assert sweep["sweep_N"].values.tolist() == [300, 340, 380, 420]
-    assert sweep["sweep_N"].attrs["units"] == sweep["onset"].attrs["units"] == "N"
-    assert sweep["separation_rate"].sel(direction="up").values[0] == 0
-    assert (sweep["separation_rate"].sel(direction="down").values[:3] > 100).all()
-    assert "still lost on the way down at the lower bound, N = 300 N" in message_of(sweep)
 
 
 # ---- Basins

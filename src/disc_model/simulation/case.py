@@ -330,27 +330,20 @@ class Prerun(Strict):
         return {name: getattr(checked, name) for name in values}
 
 
-Perturbation = Annotated[
-    dict[Literal["u", "u_velocity", "f"], Finite],
-    Unit({"u": "m", "u_velocity": "m/s", "f": "rad/s"}),
-]
-"""What is added to coordinates of a start."""
-
-
 class Start(Strict):
     """The state from which a motion starts: the static start, unless one of these keys is given.
 
     prerun : after another motion, such as one that has separated
-    perturbation : added to a coordinate: ``u`` (m) and ``u_velocity`` (m/s) of the slider and of the disc under it,
-        ``f`` (rad/s), the slider's angular velocity
+    u, u_velocity : m and m/s, added to the state of the slider and of the disc under it
+    f : rad/s, added to the slider's angular velocity
     """
 
     prerun: Prerun | None = Field(
         None, description="another case that is simulated first, with parameters and time"
     )
-    perturbation: Perturbation = Field(
-        {}, description="what is added to coordinates of the start, u, u_velocity or f"
-    )
+    u: Annotated[Finite, Unit("m")] = 0.0
+    u_velocity: Annotated[Finite, Unit("m/s")] = 0.0
+    f: Annotated[Finite, Unit("rad/s")] = 0.0
 
 
 # ---- Named cases of studies, and their content addresses

@@ -8,7 +8,7 @@ from disc_model.errors import require
 from disc_model.parameters import Parameters
 from disc_model.simulation import states
 from disc_model.simulation.api import simulate
-from disc_model.simulation.case import Perturbation, Prerun, Start
+from disc_model.simulation.case import Prerun, Start
 from disc_model.simulation.states import State
 from disc_model.units import Tolerance, checked
 
@@ -16,7 +16,7 @@ from disc_model.units import Tolerance, checked
 @checked
 def initial_state(
     case: Parameters,
-    start: Perturbation | None = None,
+    start: Start | None = None,
     *,
     prerun: Prerun | None = None,
     tol: Tolerance = 1e-10,
@@ -54,7 +54,7 @@ def initial_state(
     >>> print(f"{dm.simulate(case, 60).first_separation} s, {run.first_separation:.2f} s")
     nan s, 42.23 s
     """
-    begin = Start(perturbation=start or {}, prerun=prerun)
+    begin = (start or Start()).replace(prerun=prerun)
     return make_initial_state(case, begin, tol) or states.static_start(case)
 
 
@@ -70,7 +70,7 @@ def make_initial_state(p: Parameters, start: Start, tol: float) -> State | None:
             path = f"start.prerun.parameters.{name}"
             require((count == needed, path, count, f"must be that of the case, {needed}"))
         state = states.transfer_state(p, _end_of(other, start.prerun.time, tol))
-    kick = {name: value for name, value in start.perturbation.items() if value}
+    kick = {name: value for name, value in start if name != "prerun" and value}
     if not kick:
         return state
     return states.perturb(p, state or states.static_start(p), **kick)

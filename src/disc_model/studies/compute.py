@@ -53,9 +53,8 @@ class Call:
         others = {name: x for name, x in point.items() if name not in own and name not in kicks}
         options = {**self.options, **others}
         if kicks:
-            start = options["start"]
             added = {name.removeprefix("perturbation_"): value for name, value in kicks.items()}
-            options["start"] = start.replace(perturbation={**start.perturbation, **added})
+            options["start"] = options["start"].replace(**added)
         try:
             return self.function(self.make(**own), **options)
         except NUMERICAL as error:

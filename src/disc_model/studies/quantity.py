@@ -128,17 +128,6 @@ Values = Annotated[
 """Numbers: a list of them and of ranges {start, stop, count or step, scale}, or one range."""
 
 
-def _started(given: Any) -> Any:
-    """A start of a motion: perturbations by name, and what `Start` has."""
-    if not isinstance(given, Mapping):
-        return given
-    kicks = {name: x for name, x in given.items() if name in ("u", "u_velocity", "f")}
-    others = {name: value for name, value in given.items() if name not in kicks}
-    return {**others, "perturbation": kicks} if kicks else others
-
-
-Starting = Annotated[Start, BeforeValidator(_started)]
-"""A start: perturbations {u, u_velocity, f} of the static start, or {prerun: {parameters, time}}."""
 STATIC = Start()
 COME_TO = (
     "What the motion has come to: a while after the first separation, on the cycle it settled to, "

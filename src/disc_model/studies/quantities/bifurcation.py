@@ -14,7 +14,7 @@ from disc_model.data.variables import Outcome
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Start
 from disc_model.stability.follower import FIRST_LEG
-from disc_model.studies.quantity import MOST, STATIC, Motion, Starting, found, quantity
+from disc_model.studies.quantity import MOST, STATIC, Motion, found, quantity
 from disc_model.units import Count, Seconds, Tolerance
 
 if TYPE_CHECKING:
@@ -47,7 +47,7 @@ def bifurcation(
     transient: Seconds,
     max_transient: Seconds = 480.0,
     samples: Annotated[Count, Field(ge=1, le=MOST)] = 50,
-    start: Starting = STATIC,
+    start: Start = STATIC,
     tol: Tolerance = 1e-10,
 ) -> xr.Dataset:
     """Samples of the motion after a transient, for bifurcation diagrams, at separations if there are any, else at

@@ -13,16 +13,7 @@ from pydantic import Field
 from disc_model.data.variables import message_of
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Start
-from disc_model.studies.quantity import (
-    STATIC,
-    Free,
-    Motion,
-    Starting,
-    Values,
-    found,
-    listed,
-    quantity,
-)
+from disc_model.studies.quantity import STATIC, Free, Motion, Values, found, listed, quantity
 from disc_model.units import Count, CycleTolerance, Finite, Positive, Real, Seconds, Tolerance, Unit
 
 if TYPE_CHECKING:
@@ -94,7 +85,7 @@ def lyapunov_exponents(
     *,
     transient: Seconds,
     duration: Seconds,
-    start: Starting = STATIC,
+    start: Start = STATIC,
     tol: Tolerance = 1e-10,
 ) -> xr.Dataset:
     """The two largest Lyapunov exponents of the motion across all its events, without the one along it, which

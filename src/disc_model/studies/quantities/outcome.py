@@ -12,7 +12,7 @@ import xarray as xr
 from disc_model.data.variables import Outcome
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Start
-from disc_model.studies.quantity import COME_TO, STATIC, Motion, Starting, found, quantity
+from disc_model.studies.quantity import COME_TO, STATIC, Motion, found, quantity
 from disc_model.units import Seconds, Tolerance
 
 if TYPE_CHECKING:
@@ -77,7 +77,7 @@ def outcome(
     case: Parameters,
     horizon: Seconds = 1000.0,
     *,
-    start: Starting = STATIC,
+    start: Start = STATIC,
     evaluation_time: Seconds = 1.0,
     after_separation: Seconds = 5.0,
     early_end: bool = True,
