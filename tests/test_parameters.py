@@ -2,7 +2,6 @@
 
 import copy
 import json
-import math
 import pickle
 from collections.abc import Callable
 from typing import Any
@@ -78,7 +77,7 @@ def test_numbers_are_those_that_may_change() -> None:
     assert "D_star" not in P.replace(damping_ratio=1e-3).numbers
     assert OF_MODES.numbers["omega_3_0"] == 1515
     assert not {*PLATE} & OF_MODES.numbers.keys()
-    assert OF_MODES.replace(omega_3_0="240 Hz").numbers["omega_3_0"] == pytest.approx(480 * math.pi)
+    assert OF_MODES.replace(omega_3_0=1500).numbers["omega_3_0"] == 1500
 
 
 def test_a_disc_of_ones_own_stores_nothing_of_the_plate() -> None:

@@ -148,7 +148,7 @@ def load(path: str | Path) -> xr.Dataset | xr.DataTree:
     >>> case = dm.Parameters(N=385, Omega=15.1)
     >>> dm.simulate(case, 1, {"late": dm.Window(last=0.5, rate=1e4)}).save("run.nc")
     >>> sorted(dm.load("run.nc").children)
-    ['events', 'final_state', 'late']
+    ['events', 'late']
     """
     tree = load_tree(path)
     return tree if tree.children else tree.to_dataset()

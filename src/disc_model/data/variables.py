@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from disc_model.display import counted, frequencies_text
 from disc_model.errors import StatusBase
-from disc_model.mode_units import column_of, si_unit_of_mode
+from disc_model.modal_disc import column_of, si_unit_of_mode
 from disc_model.parameters import Parameters
 
 _TABLES = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))

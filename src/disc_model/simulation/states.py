@@ -254,7 +254,7 @@ def deflection(case: Parameters, states: Any, r: Radii, theta: Angles) -> Any:
         (
             np.all((low <= r) & (r <= high)),
             "r",
-            r,
+            r.tolist(),
             f"must be within {as_text(low)} and {as_text(high)}",
         ),
         (fit, "states", states, f"must be states of the case, with {len(modes.psi)} modes"),

@@ -15,7 +15,7 @@ import xarray as xr
 
 from disc_model.data.variables import PERTURBATIONS, TRUTH, Variable, attributes
 from disc_model.display import progress_bar
-from disc_model.mode_units import column_of
+from disc_model.modal_disc import column_of
 from disc_model.parameters import PLATE_NAME, Parameters
 from disc_model.studies.grid import WORDS
 from disc_model.studies.quantity import NUMERICAL

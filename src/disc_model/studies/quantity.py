@@ -20,7 +20,7 @@ from disc_model.data.coded import words
 from disc_model.data.described import described
 from disc_model.data.variables import OF_QUANTITIES, Variable
 from disc_model.errors import DiscModelError, Fault, ParameterError, raise_faults, suggestion
-from disc_model.mode_units import column_of
+from disc_model.modal_disc import column_of
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.simulation.case import Start
 from disc_model.units import Count, Finite, Positive, Strict, arguments_of, must

@@ -477,7 +477,8 @@ def parse_study(raw: Any, folder: Path, source: str = "study") -> Study:
 
 
 def _inherited(raw: Mapping[str, Any]) -> dict[str, Any]:
-    """The content of a file, in which each case has what it inherits, and discs along an axis that `discs` does not name stand for themselves."""
+    """The content of a file, in which each case has what it inherits, and discs along an axis that `discs`
+    does not name stand for themselves."""
     content = dict(raw)
     keys = {"base": "parameters", "record": "record", "tol": "tol"}
     shared = {inner: content[key] for key, inner in keys.items() if content.get(key) is not None}

@@ -15,7 +15,7 @@ import xarray as xr
 from disc_model.data.columns import result_dataset
 from disc_model.data.variables import COMMON
 from disc_model.errors import Fault, ParameterError, raise_faults, require, suggestion
-from disc_model.mode_units import mode_number_in_si
+from disc_model.modal_disc import si_unit_of_mode
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.provenance import versions_text
 from disc_model.studies.compute import Call, compute, is_of_case, stack
@@ -145,12 +145,7 @@ def _column(name: str, values: Any, case: Parameters) -> list[Any]:
         (known, name, values, f"is no number of the case{suggestion(name, case.numbers)}"),
     )
     faults: list[Fault] = []
-    column = []
-    for value in np.asarray(values, dtype=object).tolist():
-        if name in Parameters.model_fields:
-            value = in_si(value, Parameters.unit(name), faults, (name,))
-        elif isinstance(value, str):
-            value = mode_number_in_si(name, value, faults)
-        column.append(float(value) if is_number(value) else value)
+    given = np.asarray(values, dtype=object).tolist()
+    column = in_si(given, Parameters.unit(name) or si_unit_of_mode(name), faults, (name,))
     raise_faults(faults)
-    return column
+    return [float(value) if is_number(value) else value for value in column]
