@@ -272,6 +272,8 @@ def ramp_faults(p: Parameters, ramps: Sequence[Ramp], poincare: bool) -> Iterato
 def pieces(p: Parameters, ramps: Sequence[Ramp]) -> tuple[Piece, ...]:
     """The intervals of constant rates, in order, the first before any ramp; ramps to the present
     value do not count."""
+    if not ramps:  # as nearly always, and at once
+        return (Piece(-math.inf, math.inf, 0.0, p.Omega, 0.0, p.N, 0.0),)
     knots: set[float] = set()
     courses = []
     for name in ("Omega", "N"):
@@ -349,7 +351,11 @@ class Start(Strict):
 # ---- Named cases of studies, and their content addresses
 
 Name = Annotated[str, StringConstraints(pattern=r"^[A-Za-z]\w*$", max_length=100)]
-WindowName = Annotated[Name, AfterValidator(must(lambda name: name not in BESIDE_WINDOWS, TAKEN))]
+WindowName = Annotated[
+    str,
+    StringConstraints(pattern=r"^\w([^/]*[^/\s])?$", max_length=60),  # of a group in files
+    AfterValidator(must(lambda name: name not in BESIDE_WINDOWS, TAKEN)),
+]
 _CALLED = {"title", "reference"}
 
 
