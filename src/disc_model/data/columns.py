@@ -153,19 +153,18 @@ def _values_of(result: Any) -> Mapping[str, Any]:
 def with_real_parts(data: xr.Dataset) -> xr.Dataset:
     """A dataset with the real and the imaginary part of each complex variable x in its place, x_real and
     x_imag: files have no complex numbers."""
-    parts: dict[str, xr.DataArray] = {}
+    parts = {}
     for name, x in data.data_vars.items():
         if x.dtype.kind == "c":
             parts |= {f"{name}_real": x.real, f"{name}_imag": x.imag}
-    whole = [name for name, x in data.data_vars.items() if x.dtype.kind == "c"]
-    return data.drop_vars(whole).assign(parts)
+    return data.drop_vars({x.name for x in parts.values()}).assign(parts)
 
 
 def with_complex_values(data: xr.Dataset) -> xr.Dataset:
     """A dataset with complex variables in place of the parts that `with_real_parts` has made of them."""
-    names = [
-        str(name).removesuffix("_real") for name in data.data_vars if str(name).endswith("_real")
-    ]
-    whole = {name: data[f"{name}_real"] + 1j * data[f"{name}_imag"] for name in names}
-    parts = [f"{name}_{part}" for name in names for part in ("real", "imag")]
-    return data.drop_vars(parts).assign(whole)
+    whole = {}
+    for real in map(str, data.data_vars):
+        name = real.removesuffix("_real")
+        if name != real:
+            whole[name] = data[real] + 1j * data[f"{name}_imag"]
+    return data.drop_vars([f"{x}_{part}" for x in whole for part in ("real", "imag")]).assign(whole)
