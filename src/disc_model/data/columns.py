@@ -153,7 +153,7 @@ def _values_of(result: Any) -> Mapping[str, Any]:
 def with_real_parts(data: xr.Dataset) -> xr.Dataset:
     """A dataset with the real and the imaginary part of each complex variable x in its place, x_real and
     x_imag: files have no complex numbers."""
-    parts = {}
+    parts: dict[str, xr.DataArray] = {}
     for name, x in data.data_vars.items():
         if x.dtype.kind == "c":
             parts |= {f"{name}_real": x.real, f"{name}_imag": x.imag}

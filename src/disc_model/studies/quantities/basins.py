@@ -134,7 +134,7 @@ def basins(
 
     decided = [reached.separates for reached in every if reached.attractor is not None]
     separating = share(sum(decided), len(decided), len(every) - len(decided))
-    by_energy = np.array([[*_shares(row)] for row in results])
+    by_energy = np.array([[*_shares(row)] for row in results.tolist()])
     values = {
         "status": failed[0].status if len(failed) == len(every) else "ok",
         "kind": of_starts(lambda reached: reached.word),
