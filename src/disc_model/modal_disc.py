@@ -30,7 +30,6 @@ GIVEN_ONCE = (
 NO_PAIR = "a mode without nodal diameters is no half of a pair, and must be given once"
 
 Quantity = float | str  # a number, or a text that stands for one, with or without its unit
-Column = Iterable[float]  # numbers of the modes of a table
 
 
 UNCERTAIN = {"omega": "rad/s", "amplitude": "kg^-1/2", "damping_ratio": "", "tangential": "kg^-1/2"}
@@ -107,11 +106,7 @@ class Disc(Strict):
 
     if TYPE_CHECKING:  # for type checkers: any sequence of numbers will do
 
-        def __init__(  # noqa: PLR0913
-            self, *, diameters: Column, omega: Column, amplitude: Column, damping_ratio: Column = ...,
-            circles: Column = ..., tangential: Column = ..., static_compliance: Quantity | None = ...,
-            radii: Column = ..., shapes: Iterable[Column] = ...,
-        ) -> None: ...  # fmt: skip
+        def __init__(self, **columns: Any) -> None: ...
 
     @model_validator(mode="after")
     def _consistent(self) -> Self:

@@ -12,7 +12,6 @@ from pydantic import AfterValidator, BeforeValidator, Field, model_validator
 
 from disc_model.errors import Fault, ImplausibleValue, as_text, require
 from disc_model.modal_disc import Disc
-from disc_model.modal_disc import Quantity as Quantity
 from disc_model.provenance import content_key
 from disc_model.units import UNITS, Count, Finite, Real, Strict, must
 
@@ -21,14 +20,12 @@ NUMBER_OR_WORD = ("contact_compliance", "friction_offset")  # parameters that ar
 SURFACE = "surface"  # value of ``friction_offset`` by which friction acts on the disc's surface
 
 # parameters in rules that relate several
-RELATED = ("mu_s", "mu_k", "a", "b", "r_0", "E", "h", "nu", "disc")
+RELATED = ("mu_s", "mu_k", "a", "b", "r_0", "E", "h", "nu")
 # parameters of the plate, which have no meaning for a disc that is given by its modes
 PLATE = (
     *("D_star", "E", "a", "b", "h", "nu", "rho"),
     *("n_diameters", "n_circles", "normalization", "stretching"),
 )
-PLATE_NAME = "plate"
-"""What a disc is called that is given by its sizes and material, beside discs given by their modes."""
 
 MOST_DAMPED = 0.05  # damping ratio above which it is doubted: discs of metal have 0.0001 to 0.01
 SOFTEST = 1e9  # Pa, Young's modulus below which it is doubted
@@ -247,9 +244,10 @@ class Parameters(Strict):
     def _check_related(self) -> None:
         """Refuse parameters that exceed another one, and a flexural rigidity beyond the range of
         floats."""
-        mu_s, mu_k, a, b, r_0, E, h, nu = (getattr(self, name) for name in RELATED[:8])
-        if None in (mu_s, mu_k, a, b, r_0, E, h, nu):
+        values = [getattr(self, name) for name in RELATED]
+        if None in values:
             return
+        mu_s, mu_k, a, b, r_0, E, h, nu = values
         rigidity = E * (h * h * h) / 12 / (1 - nu**2)  # a power would not overflow to inf
         finite = f"must give a finite, positive E h^3/12/(1-nu^2), not {as_text(rigidity)}"
         plate = self.disc is None  # a disc given by its modes has other radii

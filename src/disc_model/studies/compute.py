@@ -16,7 +16,7 @@ import xarray as xr
 from disc_model.data.variables import PERTURBATIONS, TRUTH, Variable, attributes
 from disc_model.display import progress_bar
 from disc_model.modal_disc import column_of
-from disc_model.parameters import PLATE_NAME, Parameters
+from disc_model.parameters import Parameters
 from disc_model.studies.grid import WORDS
 from disc_model.studies.quantity import NUMERICAL
 
@@ -127,7 +127,7 @@ def _varied(dims: Mapping[str, pd.DataFrame]) -> dict[str, Any]:
     coordinates = {}
     for dim, frame in dims.items():
         for name in map(str, frame):
-            values = [PLATE_NAME if value is None else value for value in frame[name]]
+            values = ["plate" if value is None else value for value in frame[name]]
             if not all(isinstance(value, int | float | str) for value in values):
                 values = [*map(str, values)]
             attrs = attributes(name) if is_of_case(name) or name in PERTURBATIONS else {}
