@@ -52,12 +52,6 @@ class Unit:
     name: Units = ""
     of: str = ""
 
-    def __get_pydantic_json_schema__(self, schema: Any, handler: Any) -> dict[str, Any]:
-        described = dict(handler(schema))
-        if isinstance(self.name, str):
-            described["unit"] = self.name
-        return described
-
 
 UNITS: dict[str, str] = {}  # units of parameters by their names, filled by `disc_model.parameters`
 
