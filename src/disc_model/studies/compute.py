@@ -18,15 +18,10 @@ from disc_model.display import progress_bar
 from disc_model.modal_disc import column_of
 from disc_model.parameters import Parameters
 from disc_model.studies.grid import WORDS
-from disc_model.studies.quantity import NUMERICAL
+from disc_model.studies.quantity import NUMERICAL, failed
 
 Point = Mapping[str, Any]
 """What varies, by name: numbers and words of the case, perturbations, and arguments of the function."""
-
-
-def failure(error: Exception) -> xr.Dataset:
-    """A point that an error has ended."""
-    return xr.Dataset({"status": "failed", "message": f"{type(error).__name__}: {error}"})
 
 
 @dataclass(frozen=True)
@@ -38,13 +33,13 @@ class Call:
     function : of a case, which returns a dataset
     make : the case, from the values of a point that are its own; raises `ParameterError`
     options : keywords of the function
-    failed : what stands for the result that an error has ended
+    quantity : its name, if it is one and gives codes for words
     """
 
     function: Callable[..., xr.Dataset]
     make: Callable[..., Parameters]
     options: Mapping[str, Any]
-    failed: Callable[[Exception], xr.Dataset] = failure
+    quantity: str = ""
 
     def __call__(self, point: Point) -> xr.Dataset:
         """What the function returns at a point; status and message alone where it fails."""
@@ -58,7 +53,7 @@ class Call:
         try:
             return self.function(self.make(**own), **options)
         except NUMERICAL as error:
-            return self.failed(error)
+            return failed(self.quantity, error)
 
 
 def is_of_case(name: str) -> bool:

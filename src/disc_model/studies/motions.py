@@ -20,7 +20,7 @@ from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Window
 from disc_model.simulation.states import State
 from disc_model.studies.compute import compute
-from disc_model.studies.quantity import failed, found, quantity_of
+from disc_model.studies.quantity import found, quantity_of
 from disc_model.studies.run import along_points, call_of
 
 SAMPLES = 256  # of a history: nearly four per oscillation of the fastest mode of the paper's disc in the longest one
@@ -37,7 +37,7 @@ def run_motions(job: str) -> xr.Dataset:
     motion = quantity_of(layout["quantity"]).motion
     assert motion is not None
     history = partial(_history_from, motion.state)
-    call = replace(call_of(layout), function=history, failed=partial(failed, "motions"))
+    call = replace(call_of(layout), function=history, quantity="motions")
     points = layout["points"]
     rows = compute(call, points)
     return described(along_points(points, rows, OF_QUANTITIES["motions"]["columns"]), "motions")

@@ -236,13 +236,16 @@ def quantity(
 
 
 def failed(name: str, error: Exception) -> xr.Dataset:
-    """The dataset of a point of a quantity that an error has ended."""
+    """The dataset of a point of a quantity that an error has ended; of another function status and message
+    alone, in words."""
     from disc_model.simulation.result import STATUS_OF
 
+    message = f"{type(error).__name__}: {error}"
+    if not name:
+        return xr.Dataset({"status": "failed", "message": message})
     word = dict[Any, Any](STATUS_OF).get(type(error), "failed")
     known = OF_QUANTITIES[name]["columns"]["status"].flags
-    status = word if word in known else "failed"
-    return found(name, {"status": status}, f"{type(error).__name__}: {error}")
+    return found(name, {"status": word if word in known else "failed"}, message)
 
 
 def found(

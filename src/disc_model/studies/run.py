@@ -21,7 +21,7 @@ from disc_model.provenance import git_commit, physics_hash, versions_text
 from disc_model.simulation.named_case import run_case
 from disc_model.studies.compute import Call, compute, stack
 from disc_model.studies.grid import VARIED, Points, case_of
-from disc_model.studies.quantity import failed, quantity_of
+from disc_model.studies.quantity import quantity_of
 
 if TYPE_CHECKING:
     from disc_model.studies.study import Study
@@ -40,7 +40,7 @@ def call_of(layout: Layout) -> Call:
     options = quantity.options.model_validate(layout["options"])
     discs = {name: Disc.model_validate(disc) for name, disc in layout["discs"].items()}
     make = partial(case_of, {**quantity.unset(options), **layout["base"]}, discs)
-    return Call(quantity.function, make, dict(options), partial(failed, quantity.name))
+    return Call(quantity.function, make, dict(options), quantity.name)
 
 
 def run_job(job: str, known: Iterable[xr.Dataset] = ()) -> xr.Dataset:
