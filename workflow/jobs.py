@@ -128,7 +128,7 @@ def provenance(output: str, *paths: str) -> None:
 
 def motions(output: str) -> None:
     """Store short histories at points of a grid, for the explorer."""
-    from disc_model.studies.motions import run_motions
+    from disc_model.studies.run import run_motions
 
     save_dataset(run_motions(sys.stdin.read()), output)
 

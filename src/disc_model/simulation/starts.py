@@ -66,7 +66,8 @@ def make_initial_state(p: Parameters, start: Start, tol: float) -> State | None:
     if start.prerun is not None:
         other = p.replace(**start.prerun.parameters)
         for name in ("n_diameters", "n_circles"):
-            count, needed = getattr(other, name), getattr(p, name)
+            count = getattr(other, name)
+            needed = getattr(p, name)
             path = f"start.prerun.parameters.{name}"
             require((count == needed, path, count, f"must be that of the case, {needed}"))
         state = states.transfer_state(p, _end_of(other, start.prerun.time, tol))

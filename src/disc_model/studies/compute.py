@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import chain
@@ -159,4 +158,4 @@ def _empty(dtypes: Sequence[Any], shape: Sequence[int], whole: bool) -> np.ndarr
     dtype = np.result_type(*dtypes)
     if dtype.kind in "UO":
         return np.full(shape, "", dtype)
-    return np.empty(shape, dtype) if whole else np.full(shape, math.nan)
+    return np.empty(shape, dtype) if whole else np.full(shape, np.nan)

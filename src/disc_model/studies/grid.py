@@ -31,14 +31,14 @@ class _Columns(Strict):
 
 def _axis(name: str) -> Any:
     """The type of values along an axis, a list that may mix values and ranges, or a range; and what it is of."""
-    kind: Any = Finite
-    text, unit = "", ""
+    unit = Parameters.unit(name)
     if name in PERTURBATIONS:
+        kind: Any = Finite
         text = PERTURBATIONS[name].long_name
     else:
         field = Parameters.model_fields[name]
         kind = str if name == "disc" else Annotated[field.annotation, name, *field.metadata]
-        text, unit = str(field.description), Parameters.unit(name)
+        text = str(field.description)
     listed = BeforeValidator(listed_values, json_schema_input_type=list[kind | Range] | Range)
     values = Annotated[tuple[kind, ...], listed, Field(min_length=1)]
     return values, Field(None, description=text, json_schema_extra={"unit": unit})

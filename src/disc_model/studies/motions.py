@@ -3,25 +3,18 @@
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Callable
-from dataclasses import replace
-from functools import partial
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
-from disc_model.data.described import described
-from disc_model.data.variables import OF_QUANTITIES
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Window
 from disc_model.simulation.states import State
-from disc_model.studies.compute import compute
-from disc_model.studies.quantity import found, quantity_of
-from disc_model.studies.run import along_points, call_of
+from disc_model.studies.quantity import found
 
 SAMPLES = 256  # of a history: nearly four per oscillation of the fastest mode of the paper's disc in the longest one
 CYCLES_SHOWN = 2  # number of stick-slip cycles in a history
@@ -31,19 +24,7 @@ LONGEST = (
 SHOWN = ("P", "u", "psi")
 
 
-def run_motions(job: str) -> xr.Dataset:
-    """Histories along `point` and `sample`, for a text of `Study.motions`."""
-    layout = json.loads(job)
-    motion = quantity_of(layout["quantity"]).motion
-    assert motion is not None
-    history = partial(_history_from, motion.state)
-    call = replace(call_of(layout), function=history, quantity="motions")
-    points = layout["points"]
-    rows = compute(call, points)
-    return described(along_points(points, rows, OF_QUANTITIES["motions"]["columns"]), "motions")
-
-
-def _history_from(state: Callable[..., State], case: Parameters, **options: Any) -> xr.Dataset:
+def history_from(state: Callable[..., State], case: Parameters, **options: Any) -> xr.Dataset:
     """A history that begins at a state of a quantity, along `sample`."""
     start = state(case, **options).replace(time=0.0)
     # of a cycle: the mean time between releases, at least the free period, which stands for it

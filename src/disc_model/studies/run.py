@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import logging
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -15,12 +16,13 @@ import xarray as xr
 from disc_model.data.coded import table_of
 from disc_model.data.dataset import CONVENTIONS
 from disc_model.data.described import described
-from disc_model.data.variables import Variable
+from disc_model.data.variables import OF_QUANTITIES, Variable
 from disc_model.parameters import Disc
 from disc_model.provenance import git_commit, physics_hash, versions_text
 from disc_model.simulation.named_case import run_case
 from disc_model.studies.compute import Call, compute, stack
 from disc_model.studies.grid import VARIED, Points, case_of
+from disc_model.studies.motions import history_from
 from disc_model.studies.quantity import quantity_of
 
 if TYPE_CHECKING:
@@ -58,10 +60,22 @@ def run_job(job: str, known: Iterable[xr.Dataset] = ()) -> xr.Dataset:
     there |= zip(map(str, missing), compute(call_of(layout), missing), strict=True)
     log.info("%d of %d points computed", len(missing), len(points))
     rows = [there[str(point)] for point in points]
-    return along_points(points, rows, quantity_of(layout["quantity"]).columns)
+    return _along_points(points, rows, quantity_of(layout["quantity"]).columns)
 
 
-def along_points(
+def run_motions(job: str) -> xr.Dataset:
+    """Histories along `point` and `sample`, for a text of `Study.motions`."""
+    layout = json.loads(job)
+    motion = quantity_of(layout["quantity"]).motion
+    assert motion is not None
+    history = partial(history_from, motion.state)
+    call = replace(call_of(layout), function=history, quantity="motions")
+    points = layout["points"]
+    rows = compute(call, points)
+    return described(_along_points(points, rows, OF_QUANTITIES["motions"]["columns"]), "motions")
+
+
+def _along_points(
     points: Points, rows: Sequence[xr.Dataset], columns: Mapping[str, Variable]
 ) -> xr.Dataset:
     """Results in one dataset, with what varies as coordinates along `point`."""
