@@ -12,8 +12,8 @@ from typing import Annotated, Any, Literal, NamedTuple, Self
 import numpy as np
 from pydantic import (
     AfterValidator,
+    BeforeValidator,
     Field,
-    PlainValidator,
     StringConstraints,
     create_model,
     field_validator,
@@ -383,7 +383,8 @@ class CaseSpec(Strict):
     title: str = ""
     reference: str = ""
     parameters: Annotated[
-        Parameters, PlainValidator(Parameters.model_validate, json_schema_input_type=SomeParameters)
+        Parameters,
+        BeforeValidator(Parameters.model_validate, json_schema_input_type=SomeParameters),
     ]
     t_end: Seconds
     tol: Tolerance = 1e-10
