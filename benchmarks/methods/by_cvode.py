@@ -28,7 +28,6 @@ CHECKED_STEPS = 5_000
 # constants of SUNDIALS
 FAMILIES = {"Adams": 1, "BDF": 2}
 NORMAL = 1
-ONE_STEP = 2
 REACHED = 1
 ROOT_FOUND = 2
 TOO_MUCH_WORK = -1
@@ -75,7 +74,6 @@ def solve_by_cvode(problem: Problem, value: float, budget: float, family: str) -
     falling = (ctypes.c_int * 3)(-1, -1, -1)
     call = _library()
     switches = Pointer(_callbacks().switches.address)
-    how = ONE_STEP if problem.watched else NORMAL
 
     def advance(phase: int, direction: int, t: float, y: Array, t_end: float) -> Ended:
         state[:] = y
@@ -86,18 +84,12 @@ def solve_by_cvode(problem: Problem, value: float, budget: float, family: str) -
         call.CVodeSetRootDirection(solver.memory, falling)
         call.CVodeSetStopTime(solver.memory, ctypes.c_double(t_end))
 
-        times = [t]
-        states = [y.copy()]
         flag = 0
         while flag in (0, TOO_MUCH_WORK):
             meter.check()
             flag = call.CVode(
-                solver.memory, ctypes.c_double(t_end), solver.vector, ctypes.byref(time), how
+                solver.memory, ctypes.c_double(t_end), solver.vector, ctypes.byref(time), NORMAL
             )
-            times.append(time.value)
-            states.append(state.copy())
-        if problem.watched:
-            meter.steps(np.array(times), np.array(states))
         call.CVodeGetNumRhsEvals(solver.memory, ctypes.byref(evaluations))
         meter.work += evaluations.value
 

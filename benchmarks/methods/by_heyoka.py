@@ -52,16 +52,7 @@ def solve_by_heyoka(problem: Problem, value: float, budget: float, mode: str = "
     at_end = int(hy.taylor_outcome.time_limit)
     no_more = int(hy.taylor_outcome.step_limit)
     prepared = _prepared(problem, meter.physics, value, mode == "compact")
-    path: list[tuple[float, Array]] = []
     inside = 0.0  # s spent in compiled code
-
-    def note(integrator: Any) -> bool:
-        path.append((float(integrator.time), integrator.state.copy()))
-        return True
-
-    options: dict[str, Any] = {"max_steps": CHECKED_STEPS}
-    if problem.watched:
-        options["callback"] = note  # at every step, which takes longer than some steps
 
     def advance(phase: int, direction: int, t: float, y: Array, t_end: float) -> Ended:
         nonlocal inside
@@ -71,11 +62,10 @@ def solve_by_heyoka(problem: Problem, value: float, budget: float, mode: str = "
         state[:] = y[:size]
         if direction:
             integrator.pars[2] = direction
-        path.clear()
 
         began = clock.perf_counter()
         while True:
-            outcome, _, _, steps, _, _ = propagate(t_end, **options)
+            outcome, _, _, steps, _, _ = propagate(t_end, max_steps=CHECKED_STEPS)
             meter.work += steps
             stop = int(outcome)
             if stop != no_more:
@@ -88,12 +78,6 @@ def solve_by_heyoka(problem: Problem, value: float, budget: float, mode: str = "
             cause = skipped - stop - 1
             if not skipped <= cause < ENDS[phase]:
                 raise GaveUp(RunStatus.FAILED, str(outcome))
-        if problem.watched:
-            note(integrator)
-            states = np.tile(y, (len(path) + 1, 1))
-            states[1:, :size] = [state for _, state in path]
-            times = np.array([t, *(time for time, _ in path)])
-            meter.steps(times, states)
         y[:size] = state
         return cause, integrator.time, y
 

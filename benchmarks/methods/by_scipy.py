@@ -76,7 +76,8 @@ def solve_by_scipy(problem: Problem, value: float, budget: float, algorithm: str
                 events=events,
                 **options,
             )
-        meter.steps(solution.t, solution.y.T)
+        steps = np.diff(solution.t)
+        meter.longest_step = float(np.fmax.reduce(steps, initial=meter.longest_step))
         if solution.status == -1:
             raise GaveUp(RunStatus.FAILED, solution.message)
         cause = next((i for i, times in enumerate(solution.t_events) if len(times)), None)

@@ -15,7 +15,6 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.interpolate import CubicHermiteSpline
 
 from benchmarks.methods.kernels import Array, Physics
 from disc_model.parameters import Parameters
@@ -50,7 +49,6 @@ class Problem:
     start : state at the start
     t_end : end, s, absolute and greater than ``start.time``
     stop : whether to end at the first separation
-    watched : whether the range of the disc is wanted, which costs some methods time
     max_step : longest step in s of methods that would miss events with longer ones
     """
 
@@ -58,7 +56,6 @@ class Problem:
     start: State
     t_end: float
     stop: bool = False
-    watched: bool = False
     max_step: float = math.inf
 
     @property
@@ -81,7 +78,6 @@ class MethodResult:
     outcome : how the run ended
     message : the reason, if it failed
     longest_step : s, nan if it is not known
-    heights : least and greatest w under the slider, m, nan if it was not watched
     glue : seconds spent in Python between compiled phases, nan where that was not measured
     """
 
@@ -93,7 +89,6 @@ class MethodResult:
     outcome: RunStatus
     message: str = ""
     longest_step: float = math.nan
-    heights: tuple[float, float] = (math.nan, math.nan)
     glue: float = math.nan
 
 
@@ -110,7 +105,6 @@ class Meter:
     budget : seconds
     work : number of right-hand sides, or of steps
     longest_step : s
-    low, high : least and greatest w under the slider, m
     outcome, message : how the run ended, and the reason
     began, seconds, wall : begin of the integration, and its processor and wall time, s
     """
@@ -121,8 +115,6 @@ class Meter:
         self.budget = budget
         self.work = 0
         self.longest_step = math.nan
-        self.low = math.nan
-        self.high = math.nan
         self.outcome = RunStatus.FINISHED
         self.message = ""
         self.began = 0.0
@@ -161,41 +153,7 @@ class Meter:
             outcome=self.outcome,
             message=self.message,
             longest_step=self.longest_step,
-            heights=(self.low, self.high),
         )
-
-    def steps(self, times: Array, states: Array) -> None:
-        """Record the steps of one phase, and the range of w over them if it is wanted.
-
-        Parameters
-        ----------
-        times : s, shape (k,)
-        states : vectors at these times, shape (k, size)
-        """
-        if len(times) > 1:
-            longest = np.max(np.diff(times))
-            self.longest_step = float(np.fmax(self.longest_step, longest))
-        if self.problem.watched:
-            w = self._heights(times, states)
-            self.low = float(np.fmin.reduce(w, initial=self.low))
-            self.high = float(np.fmax.reduce(w, initial=self.high))
-
-    def _heights(self, times: Array, states: Array) -> Array:
-        """Return w under the slider at steps and where it is extreme between them, m.
-
-        Between steps w is a cubic.
-        """
-        q = self.physics
-        w = states[:, q.a] @ q.shape
-        slope = states[:, q.b] @ q.slope
-        rate = states[:, q.alpha] @ q.shape + states[:, q.f] * slope
-        forward = np.diff(times, append=math.inf) > 0.0
-        steps = np.flatnonzero(forward & np.isfinite(w + rate))
-        if len(steps) < 2:
-            return w
-        cubics = CubicHermiteSpline(times[steps], w[steps], rate[steps])
-        extremes = cubics.derivative().roots(extrapolate=False)
-        return np.concatenate([w, cubics(extremes)])
 
     def check(self) -> None:
         """Raise `GaveUp` if the budget is used up."""

@@ -607,12 +607,12 @@ def rk4_run(modes, c, phase, direction, y, limits, track):
 
     y : state, which is changed in place
     limits : end and step, s, greatest number of steps, whether to stop at the first separation
-    track : arrays to fill: times and kinds of events, and (2,) the least and greatest w at step ends
+    track : arrays to fill: times and kinds of events
 
     Returns how it ended, local time, phase, direction, and the numbers of events and steps.
     """
     t_end, h, max_steps, stop = limits
-    times, kinds, heights = track
+    times, kinds = track
     size = len(y)
     n = modes.shape[1]
     final = y
@@ -657,8 +657,6 @@ def rk4_run(modes, c, phase, direction, y, limits, track):
         if not abs(w) < HUGE:
             why = NON_FINITE
             break
-        heights[0] = min(heights[0], w)
-        heights[1] = max(heights[1], w)
 
         # whether there is an event in it
         conditions = _margins(c, phase, direction, end, n, P, F, w, after)
