@@ -5,16 +5,8 @@ from collections.abc import Sequence
 import numpy as np
 import pytest
 
-from disc_model.disc.plate import modal_damping, mode_arrays, modes_at_point
 from disc_model.parameters import Parameters
-from workflow.paper.energy import (
-    Powers,
-    angles_round,
-    at_range,
-    damping_by_diameters,
-    in_the_end,
-    power_history,
-)
+from workflow.paper.energy import Powers, at_range, in_the_end, power_history
 from workflow.paper.measures import Absent
 
 pytestmark = pytest.mark.compiled
@@ -80,14 +72,3 @@ def test_the_end_is_the_last_quarter_of_the_stages(
     numbers: tuple[float, ...], mean_of_last: float
 ) -> None:
     assert in_the_end(numbered(*numbers)) == numbered(mean_of_last)[0]
-
-
-def test_damping_belongs_to_the_diameters_of_the_wave_that_moves() -> None:
-    """A wave of three diameters, whose velocity is 0.2 m/s at r_0, at rest in time."""
-    theta = angles_round(GROWS)
-    samples = [{"w_point_velocity": np.full(5, 0.2 * np.cos(3 * angle))} for angle in theta]
-    taken = damping_by_diameters(GROWS, theta, samples)
-    of_wave = np.flatnonzero(mode_arrays(GROWS).diameters == 3)[0]
-    psi = modes_at_point(GROWS).psi[of_wave]
-    expected = modal_damping(GROWS)[of_wave] * (0.2 / psi) ** 2
-    assert taken == pytest.approx([0, 0, 0, expected, 0], abs=1e-12 * expected)

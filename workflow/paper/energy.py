@@ -79,7 +79,7 @@ def powers(p: Parameters, u_0: float, theta: Array, samples: Sequence[Mapping[An
     psi = _by_mode(p, modes_at_point(p).psi)
     modal_speed = _modal(p, theta, samples, "w_point_velocity")
 
-    under_slider = _waves(p.Omega * time - drive, p.n_diameters)
+    under_slider = waves(p.Omega * time - drive, p.n_diameters)
     material = np.sum(psi * modal_speed * under_slider, axis=0)
     power = force * (velocity - material)
 
@@ -89,7 +89,7 @@ def powers(p: Parameters, u_0: float, theta: Array, samples: Sequence[Mapping[An
     energy = np.sum(modal_speed**2 + modal_force**2, axis=0)
     energy += p.m * velocity**2 + p.k * height**2 + 2 * p.N * height
 
-    of_modes = _damping(p, modal_speed).sum()
+    of_modes = np.mean(_by_mode(p, modal_damping(p)) * modal_speed**2, axis=1).sum()
     duration = float(time[-1] - time[0])
     return Powers(
         width=float(np.ptp(u)),
@@ -98,28 +98,6 @@ def powers(p: Parameters, u_0: float, theta: Array, samples: Sequence[Mapping[An
         damped=float(of_modes + p.c * np.mean(velocity**2)),
         gained=float(energy[-1] - energy[0]) / 2 / duration,
     )
-
-
-def damping_by_diameters(
-    p: Parameters, theta: Array, samples: Sequence[Mapping[Any, Any]]
-) -> Array:
-    """Return mean powers in W that the damping of the disc takes, by the modes' nodal diameters.
-
-    Parameters
-    ----------
-    p : the case
-    theta : angles at which the disc was sampled, rad
-    samples : variables over time by name, at each of these angles
-    """
-    return _damping(p, _modal(p, theta, samples, "w_point_velocity"))
-
-
-def _damping(p: Parameters, modal_speed: Array) -> Array:
-    """Return these powers from the rates of modal coordinates, shape (modes, times)."""
-    taken = np.mean(_by_mode(p, modal_damping(p)) * modal_speed**2, axis=1)
-    orders = np.arange(p.n_diameters + 1)
-    diameters = np.concatenate([orders, orders[1:]])
-    return np.asarray(np.bincount(diameters, weights=taken), dtype=float)
 
 
 def _modal(p: Parameters, theta: Array, samples: Sequence[Mapping[Any, Any]], name: str) -> Array:
@@ -132,15 +110,16 @@ def _modal(p: Parameters, theta: Array, samples: Sequence[Mapping[Any, Any]], na
     samples : variables over time by name, at each of these angles
     name : displacement or velocity of the disc at these angles
     """
-    waves = _waves(theta, p.n_diameters).T
-    coefficients = np.linalg.solve(waves, _stacked(samples, name))
+    coefficients = np.linalg.solve(
+        waves(theta, p.n_diameters).T, [np.asarray(each[name]) for each in samples]
+    )
     return np.asarray(coefficients / _by_mode(p, modes_at_point(p).psi))
 
 
 def _by_mode(p: Parameters, values: Array) -> Array:
     """Return values of modes by diameters, then once more those of the second mode of each pair.
 
-    The result has shape (2 n_diameters + 1, 1), in the order of `_waves`.
+    The result has shape (2 n_diameters + 1, 1), in the order of `waves`.
     """
     order = np.argsort(mode_arrays(p).diameters)
     ordered = values[order]
@@ -148,12 +127,7 @@ def _by_mode(p: Parameters, values: Array) -> Array:
     return both[:, None]
 
 
-def _stacked(samples: Sequence[Mapping[Any, Any]], name: str) -> Array:
-    """Return a variable at all angles, shape (angles, times)."""
-    return np.stack([np.asarray(each[name]) for each in samples])
-
-
-def _waves(angle: Array, most: int) -> Array:
+def waves(angle: Array, most: int) -> Array:
     """Return 1, then cosines and sines of multiples of angles, shape (2 most + 1, angles)."""
     orders = np.arange(1, most + 1)[:, None]
     multiples = orders * angle

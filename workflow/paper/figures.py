@@ -14,7 +14,7 @@ from pydantic import Field
 from xarray import DataArray, Dataset, DataTree
 
 from disc_model.data.dataset import Missing
-from disc_model.data.variables import stated_in
+from disc_model.data.variables import stated_in, values_text
 from disc_model.disc.modes import plate_modes
 from disc_model.disc.plate import mode_shapes, modes_at_point
 from disc_model.figures.draw import COLUMN, PAGE, bar_of, class_map, compare, panels
@@ -335,28 +335,23 @@ def deflection_around(case: DataTree, p: Parameters, time: DataArray) -> DataArr
     """Deflection of the disc over time, r and theta, by windows at as many angles as determine the
     harmonics that modes without nodal circles are, in the unit of these; raises `Missing` if they do
     not."""
-    orders = np.arange(p.n_diameters + 1)
-    windows = [window_of(case, f"around{i}") for i in range(2 * len(orders) - 1)]
+    from workflow.paper.energy import waves  # with what simulates, which other figures do without
+
+    windows = [window_of(case, f"around{i}") for i in range(2 * p.n_diameters + 1)]
     if p.n_circles:
         raise Missing("has modes with nodal circles, which a circle of points does not tell apart")
     angles = np.array([window.attrs["theta"] for window in windows])
     values = np.array([window["w_point"].sel(time=time).values for window in windows])
-    amplitudes = np.linalg.solve(harmonics(angles, orders), values)
+    amplitudes = np.linalg.solve(waves(angles, p.n_diameters).T, values)
 
     radii = np.sort([*np.linspace(p.a, p.b, 25), p.r_0])
     theta = np.linspace(0, 2 * np.pi, 181)
     shapes = mode_shapes(p, radii) / modes_at_point(p).psi[:, None]
     both = np.vstack([shapes, shapes[1:]])  # cosines, and sines without that of order 0
-    w = np.einsum("jt,jr,aj->tra", amplitudes, both, harmonics(theta, orders))
+    w = np.einsum("jt,jr,ja->tra", amplitudes, both, waves(theta, p.n_diameters))
     unit = {"long_name": "Deflection", "units": windows[0]["w_point"].attrs["units"]}
     coordinates = {"time": time.values, "r": radii, "theta": theta}
     return DataArray(w, coordinates, ("time", "r", "theta"), attrs=unit)
-
-
-def harmonics(angles: np.ndarray, orders: np.ndarray) -> np.ndarray:
-    """Cosines and, but for order 0, sines at angles, shape (angles, functions)."""
-    turns = orders * angles[:, None]
-    return np.hstack([np.cos(turns), np.sin(turns)[:, 1:]])
 
 
 # ---- Spectra in time
@@ -541,32 +536,11 @@ def scales(
     layout = [["amplitudes", "regions", "times"]]
     figure, axes = panels(layout, PAGE, 2.6, width_ratios=(0.8, 1.25, 1.2))
     maps = {"map_N": study, "map_D_star": map_D_star, "map_c_p": map_c_p, "map_k_p": map_k_p}
-    points = points_on({**maps, "map_m": map_m}, section2.SEPARATING)
+    points = section2.separating_points({**maps, "map_m": map_m})
     draw_amplitudes(axes["amplitudes"], section2.BASE)
     draw_regions(axes["regions"], study, points)
     draw_times(axes["times"], points, section2.first_separations(points))
     return figure
-
-
-def points_on(
-    maps: Mapping[str, Dataset], separating: Mapping[str, tuple[str, str]]
-) -> dict[str, Dataset]:
-    """The paper's cases that separate, on shown maps, by the names of its figures; raises `Missing`
-    if a map does not have one.
-
-    separating : names of map and case
-    """
-    from workflow.paper.model import parameters_of
-
-    points = {}
-    for figure, (name, case) in separating.items():
-        study, p = maps[name], parameters_of(case, "as_published")
-        axes = {*study["outcome"].dims} - {"normalization"}
-        place = {axis: placed(study[axis], getattr(p, str(axis))) for axis in axes}
-        points[figure] = study.sel(place, method="nearest").sel(normalization=[*SCALES])
-        if not all(np.isclose(points[figure][axis], value) for axis, value in place.items()):
-            raise Missing(f"study {name} has no point of {figure}")
-    return points
 
 
 def draw_amplitudes(ax: Axes, base: Parameters) -> None:
@@ -603,7 +577,7 @@ def draw_regions(ax: Axes, study: Dataset, points: Mapping[str, Dataset]) -> Non
 
 def separates_with(outcome: DataArray) -> np.ndarray:
     """The class, see `CELLS`, of each point of outcomes whose first dimension is `SCALES`."""
-    published, orthonormal = words(outcome) == "separation"
+    published, orthonormal = words(outcome.sel(normalization=[*SCALES])) == "separation"
     said = np.where(published, "published", "neither")
     said = np.where(orthonormal, "orthonormal", said)
     return np.where(published & orthonormal, "both", said)
@@ -667,10 +641,8 @@ def stretched_ranges(study: Dataset) -> Figure:
 
 def _row_name(point: Dataset) -> str:
     """Preload and speed of a motion, and what differs from Table 1."""
-    text = f"{point['N'].item():g} N, {point['Omega'].item():g} rad/s"
-    usual = Parameters(N=1, Omega=1)
+    values = {}
     for name in ("D_star", "c_p", "k_p", "m"):
-        value = point[name].item() / point[name].attrs.get("factor", 1.0)
-        if not np.isclose(value, getattr(usual, name), rtol=1e-9, atol=0):
-            text += f", {value_text(point[name])}"
-    return text
+        values[name] = round(point[name].item() / point[name].attrs["factor"], 12)
+    text = f"{point['N'].item():g} N, {point['Omega'].item():g} rad/s, {values_text(values)}"
+    return text.removesuffix(", ")

@@ -5,12 +5,10 @@ modes, and those of `judging_tables`.
 """
 
 from collections.abc import Callable, Mapping
-from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import pandas as pd
-import yaml
 
 from disc_model.analysis import spectra
 from disc_model.analysis.classify import FEWEST, Motion, motion_of
@@ -21,9 +19,9 @@ from disc_model.simulation.api import simulate
 from disc_model.simulation.states import State
 from workflow.paper import TABLE_CASES, judging_tables
 from workflow.paper.measures import CaseView, place
+from workflow.paper.model import read_texts
 
-_FILE = Path(__file__).with_suffix(".yaml")
-TEXTS: dict[str, Any] = yaml.safe_load(_FILE.read_text(encoding="utf-8"))
+TEXTS: dict[str, Any] = read_texts("paper_tables.yaml")
 
 TABLE_1: dict[str, float] = TEXTS["table_1"]
 """Base values of the paper, SI units."""
@@ -102,21 +100,15 @@ def stick_slip_rate(case: CaseView) -> float:
 # ---- What results rest on
 
 
-class Variation(NamedTuple):
-    """A further run of a case with another tolerance or other modes."""
-
-    tol: float = 1e-10
-    modes: Mapping[str, int] = {}
-
-
 AS_COMPUTED = "as computed"
-VARIED = {
-    AS_COMPUTED: Variation(),
-    "tolerance 1e-8": Variation(tol=1e-8),
-    "tolerance 1e-12": Variation(tol=1e-12),
-    "8 nodal diameters": Variation(modes={"n_diameters": 8}),
-    "one nodal circle": Variation(modes={"n_circles": 1}),
+TOL = 1e-10
+VARIED: dict[str, dict[str, Any]] = {
+    "tolerance 1e-8": {"tol": 1e-8},
+    "tolerance 1e-12": {"tol": 1e-12},
+    "8 nodal diameters": {"n_diameters": 8},
+    "one nodal circle": {"n_circles": 1},
 }
+"""Tolerances and numbers of modes of further runs."""
 
 RECORD = 60.0
 """Length of the record by which a motion is classified, s: four of the longest periods."""
@@ -129,7 +121,7 @@ LARGEST_CHANGE = 1.0
 
 
 def motion_to(
-    p: Parameters, t_end: float, tol: float = 1e-10, start: State | None = None
+    p: Parameters, t_end: float, tol: float = TOL, start: State | None = None
 ) -> tuple[Motion, State]:
     """Simulate a case and classify its motion by the releases in the last `RECORD` s.
 
@@ -204,11 +196,10 @@ def periods(cases: Mapping[str, CaseView]) -> pd.DataFrame:
         row: dict[str, Any] = {"case": stated}
 
         as_computed, state = motion_to(p, case["t_end"])
-        for words, variation in VARIED.items():
-            motion = as_computed
-            if words != AS_COMPUTED:
-                varied = p.replace(**variation.modes)
-                motion, _ = motion_to(varied, case["t_end"], variation.tol)
+        row[AS_COMPUTED] = str(as_computed.period or as_computed.kind)
+        for words, varied in VARIED.items():
+            modes = {name: value for name, value in varied.items() if name != "tol"}
+            motion, _ = motion_to(p.replace(**modes), case["t_end"], varied.get("tol", TOL))
             row[words] = str(motion.period or motion.kind)
 
         row["width"] = np.nan

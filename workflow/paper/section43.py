@@ -9,11 +9,12 @@ import xarray as xr
 
 from disc_model.analysis import spectra
 from disc_model.analysis.classify import separation_location
+from disc_model.arrays import Mask
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import Outcome, flag_names, values_text
 from disc_model.parameters import Parameters
 from workflow.paper import growth, measures, paper_tables
-from workflow.paper.measures import STRETCH, Absent, Array, Cases, CaseView, Found, Mask, extent
+from workflow.paper.measures import STRETCH, Absent, Array, Cases, CaseView, Found, extent
 
 LOADS = (50, 125, 200, 300, 385, 600)
 """Preloads of the paper and beyond, N."""

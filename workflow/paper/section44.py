@@ -9,11 +9,12 @@ import numpy as np
 import xarray as xr
 
 from disc_model.analysis import spectra
+from disc_model.arrays import Mask
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import flag_names, stated_in
 from disc_model.disc.modes import plate_modes
 from workflow.paper import growth, measures, paper_tables, signals
-from workflow.paper.measures import HIGH, LOW, Array, Cases, CaseView, Found, Mask
+from workflow.paper.measures import HIGH, LOW, Array, Cases, CaseView, Found
 from workflow.paper.section2 import BASE, coupled
 from workflow.paper.section43 import plane
 
