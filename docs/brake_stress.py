@@ -91,22 +91,16 @@ def _von_mises(basis: Any, shape: np.ndarray) -> np.ndarray:
     """
     u, w, v = basis.interpolate(shape)
     r = basis.global_coordinates().value[0]
-    shear = IRON.E / 2 / (1 + IRON.nu)
-    lame = IRON.E * IRON.nu / ((1 + IRON.nu) * (1 - 2 * IRON.nu))
-    radial = u.grad[0]
-    axial = w.grad[1]
-    hoop = (u.value + DIAMETERS * v.value) / r
-    in_section = shear * (u.grad[1] + w.grad[0])
-    in_plane = shear * (v.grad[0] - (DIAMETERS * u.value + v.value) / r)
-    across = shear * (v.grad[1] - DIAMETERS * w.value / r)
+    normal = np.array([u.grad[0], w.grad[1], (u.value + DIAMETERS * v.value) / r])
+    deviator = normal - normal.mean(axis=0)
+    in_section = u.grad[1] + w.grad[0]
+    in_plane = v.grad[0] - (DIAMETERS * u.value + v.value) / r
+    across = v.grad[1] - DIAMETERS * w.value / r
 
-    pressure = lame * (radial + axial + hoop)
-    normal = [pressure + 2 * shear * strain for strain in (radial, axial, hoop)]
-    pairs = ((0, 1), (1, 2), (2, 0))
-    differences = sum((normal[i] - normal[j]) ** 2 for i, j in pairs) / 2
-    at_antinodes = differences + 3 * in_section**2
-    at_nodes = 3 * (in_plane**2 + across**2)
-    return np.sqrt(np.maximum(at_antinodes, at_nodes))
+    at_antinodes = np.sum(deviator**2, axis=0) + in_section**2 / 2
+    at_nodes = (in_plane**2 + across**2) / 2
+    squares = 1.5 * np.maximum(at_antinodes, at_nodes)
+    return np.asarray(IRON.E / (1 + IRON.nu) * np.sqrt(squares))
 
 
 def main() -> None:

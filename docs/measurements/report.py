@@ -8,6 +8,7 @@ from docs.measurements import load, stick_slip, wheel
 from docs.measurements.comparison import Comparison
 from docs.measurements.signals import LEAST_FALLS
 
+from disc_model.data.dataset import markdown_table
 from disc_model.errors import script
 
 TABLES = Path("results/measurements.md")
@@ -15,10 +16,7 @@ TABLES = Path("results/measurements.md")
 
 def table(head: Iterable[str], rows: Iterable[Iterable[str]]) -> str:
     """Return a table in Markdown."""
-    columns = list(head)
-    lines = ["| " + " | ".join(columns) + " |", "| --- " * len(columns) + "|"]
-    lines += ["| " + " | ".join(row) + " |" for row in rows]
-    return "\n".join(lines)
+    return "\n".join(markdown_table(head, rows))
 
 
 def digits(value: float) -> str:

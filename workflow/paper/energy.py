@@ -135,23 +135,22 @@ def waves(angle: Array, most: int) -> Array:
     return np.concatenate([ones, np.cos(multiples), np.sin(multiples)])
 
 
-def angles_round(p: Parameters) -> Array:
-    """Return as many angles round the disc as it has modes, rad."""
-    count = 2 * p.n_diameters + 1
-    return 2 * np.pi * np.arange(count) / count
+def powers_between(
+    p: Parameters, begin: float, end: float, state: State | None, rate: float = RATE
+) -> tuple[Powers, State]:
+    """Return mean powers between two times in s of a motion that goes on from a state, or from the
+    static start, and the last state.
 
-
-def windows_round(
-    p: Parameters, start: float, stop: float, rate: float = RATE
-) -> dict[str, Window]:
-    """Return windows that sample the disc at `angles_round` between two times in s.
-
-    The rate is in samples per second.
+    rate : samples per second
     """
-    return {
-        f"at {angle:g}": Window(start=start, stop=stop, rate=rate, theta=angle)
-        for angle in angles_round(p).tolist()
+    count = 2 * p.n_diameters + 1
+    theta = 2 * np.pi * np.arange(count) / count
+    windows = {
+        f"at {angle:g}": Window(start=begin, stop=end, rate=rate, theta=angle)
+        for angle in theta.tolist()
     }
+    run = simulate(p, end, windows, initial_state=state).raise_for_status()
+    return powers(p, run.u_0, theta, [*run.samples.values()]), run.final_state
 
 
 def power_history(p: Parameters, until: float, widest: float = math.inf) -> list[Powers]:
@@ -163,16 +162,12 @@ def power_history(p: Parameters, until: float, widest: float = math.inf) -> list
     until : the last time, s
     widest : range of the slider's height in m beyond which the motion is not followed
     """
-    theta = angles_round(p)
     state = None
     history: list[Powers] = []
     times = np.linspace(0.0, until, STAGES + 1).tolist()
     for begin, end in pairwise(times):
-        windows = windows_round(p, max(begin, end - LENGTH), end)
-        run = simulate(p, end, windows, initial_state=state).raise_for_status()
-        state = run.final_state
-        samples = list(run.samples.values())
-        history.append(powers(p, run.u_0, theta, samples))
+        found, state = powers_between(p, max(begin, end - LENGTH), end, state)
+        history.append(found)
         if len(history) > 1 and history[-1].width > widest:
             break
     return history
@@ -195,16 +190,13 @@ def taken_in_compliant_contact(p: Parameters, state: State) -> Array:
     state : from which the motion goes on
     """
     compliant = p.replace(contact_compliance="residual")
-    theta = angles_round(compliant)
     end = state.time + TRANSIENT
     run = simulate(compliant, end, initial_state=state, events=False).raise_for_status()
+    state = run.final_state
     taken = []
     for _ in range(STRETCHES):
-        begin = run.final_state.time
-        windows = windows_round(compliant, begin, begin + STRETCH)
-        run = simulate(compliant, begin + STRETCH, windows, initial_state=run.final_state)
-        run.raise_for_status()
-        taken.append(powers(compliant, run.u_0, theta, list(run.samples.values())).damped)
+        found, state = powers_between(compliant, state.time, state.time + STRETCH, state)
+        taken.append(found.damped)
     return np.array(taken)
 
 
@@ -242,17 +234,13 @@ def at_range(
         raise Absent(f"maintained contact comes to {1e3 * stages[-1].width:.3g} mm only")
     beyond = wider.index(True)
     begin = until * beyond / STAGES
-    theta = angles_round(p)
     state = None
     if begin > 0:
         state = simulate(p, begin, events=False).final_state
     near: list[Powers] = []
     last = math.nan
     for end in np.arange(begin + INSTANT, until + INSTANT / 2, INSTANT).tolist():
-        windows = windows_round(p, end - INSTANT, end, INSTANT_RATE)
-        run = simulate(p, end, windows, initial_state=state).raise_for_status()
-        state = run.final_state
-        found = powers(p, run.u_0, theta, list(run.samples.values()))
+        found, state = powers_between(p, end - INSTANT, end, state, INSTANT_RATE)
         if found.width > (1 + NEAR) * width:
             break
         if found.width > (1 - NEAR) * width:

@@ -375,12 +375,13 @@ def four_stretches(
 ) -> Figure:
     """Range of the disc at r_0 and a fixed angle, and its power over time and frequency in four
     stretches, with the lines of Table 2. The last row is the bilateral case `ignored`, which has
-    the same windows but the first.
+    the same windows but the first, as separation comes later.
 
     until : end of the part of the run that is shown
     """
-    high, low, below = ([f"{row} {name}" for name in STRETCHES] for row in ("high", "low", "none"))
-    layout = [["run"] * 4, high, low, below]
+    high, low = ([f"{row} {name}" for name in STRETCHES] for row in ("high", "low"))
+    below = [f"ignored {name}" for name in STRETCHES[1:]]
+    layout = [["run"] * 4, high, low, [".", *below]]
     figure, axes = panels(layout, PAGE, 1.5, height_ratios=(1.2, 1, 1.5, 1.5))
     draw_history([axes["run"]], ranges_of(case, history, until), ["w_point"])
     recorded = [window_of(case, name) for name in STRETCHES]
@@ -389,7 +390,7 @@ def four_stretches(
     rows = (
         (high, case, levels[:4], (CLOSE, HIGHEST), "with separation"),
         (low, case, levels[:4], (0.0, CLOSE), "with separation"),
-        (below[1:], ignored, levels[4:], (0.0, CLOSE), "separation ignored"),
+        (below, ignored, levels[4:], (0.0, CLOSE), "separation ignored"),
     )
     for names, each, shown, limits, text in rows:
         for name, level in zip(names, shown, strict=True):
@@ -397,24 +398,16 @@ def four_stretches(
             axes[name].set_ylim(limits)
             mark_first_separation([axes[name]], each)
         axes[names[0]].set_title(text)
-    say_as_above(axes[below[0]], axes[low[0]])
     for level, letter in zip(levels, "bcde", strict=False):
         mark_interval(axes["run"], level, letter)
     mark_first_separation([axes["run"]], case)
     mark_thickness(axes["run"], case, recorded[0]["w_point"])
     name_lines(axes[low[-1]])
     spectra = [axes[name] for name in (*high, *low, *below)]
-    for ax in spectra:
-        ax.label_outer()
+    for name in (*high, *low[1:], *below[1:]):
+        axes[name].label_outer()
     bar_of(figure, spectra, mesh, levels[0])
     return figure
-
-
-def say_as_above(ax: Axes, above: Axes) -> None:
-    """Say in a panel that it would repeat that above it."""
-    ax.set(xlim=above.get_xlim(), ylim=above.get_ylim(), title="no separation yet")
-    ax.set(xlabel=above.get_xlabel(), ylabel=above.get_ylabel())
-    ax.text(0.5, 0.5, "as above", ha="center", transform=ax.transAxes)
 
 
 def mark_interval(ax: Axes, level: DataArray, letter: str = "b") -> None:
