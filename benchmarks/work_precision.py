@@ -135,7 +135,6 @@ def _measured(scene: str, name: str, value: float, *, first: bool) -> tuple[dict
         "event_error": errors.event_time,
         "state_error": errors.state,
         "python": result.glue / max(result.seconds, 1e-9),
-        "work": result.work,
         "events": len(result.kinds),
         "separations": result.kinds.count("separation"),
     }, result.outcome

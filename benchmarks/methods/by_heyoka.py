@@ -65,9 +65,7 @@ def solve_by_heyoka(problem: Problem, value: float, budget: float, mode: str = "
 
         began = clock.perf_counter()
         while True:
-            outcome, _, _, steps, _, _ = propagate(t_end, max_steps=CHECKED_STEPS)
-            meter.work += steps
-            stop = int(outcome)
+            stop = int(propagate(t_end, max_steps=CHECKED_STEPS)[0])
             if stop != no_more:
                 break
             meter.check()
@@ -77,7 +75,7 @@ def solve_by_heyoka(problem: Problem, value: float, budget: float, mode: str = "
         if stop != at_end:
             cause = skipped - stop - 1
             if not skipped <= cause < ENDS[phase]:
-                raise GaveUp(RunStatus.FAILED, str(outcome))
+                raise GaveUp(RunStatus.FAILED)
         y[:size] = state
         return cause, integrator.time, y
 

@@ -79,7 +79,7 @@ def solve_by_scipy(problem: Problem, value: float, budget: float, algorithm: str
         steps = np.diff(solution.t)
         meter.longest_step = float(np.fmax.reduce(steps, initial=meter.longest_step))
         if solution.status == -1:
-            raise GaveUp(RunStatus.FAILED, solution.message)
+            raise GaveUp(RunStatus.FAILED)
         cause = next((i for i, times in enumerate(solution.t_events) if len(times)), None)
         return cause, float(solution.t[-1]), solution.y[:, -1].copy()
 

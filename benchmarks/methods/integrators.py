@@ -13,6 +13,7 @@ import time as clock
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from itertools import count
 
 import numpy as np
 
@@ -74,9 +75,7 @@ class MethodResult:
     kinds : of events, words of `disc_model.data.variables.EVENT_KINDS`
     final : state at t_end, or where the method stopped
     seconds : processor time of the integration
-    work : number of right-hand sides, or of steps for methods that work with series
     outcome : how the run ended
-    message : the reason, if it failed
     longest_step : s, nan if it is not known
     glue : seconds spent in Python between compiled phases, nan where that was not measured
     """
@@ -85,15 +84,13 @@ class MethodResult:
     kinds: tuple[str, ...]
     final: State
     seconds: float
-    work: int
     outcome: RunStatus
-    message: str = ""
     longest_step: float = math.nan
     glue: float = math.nan
 
 
 class GaveUp(Exception):
-    """A run cannot go on; the arguments are its status and the reason."""
+    """A run cannot go on; the argument is its status."""
 
 
 class Meter:
@@ -103,9 +100,8 @@ class Meter:
     ----------
     problem, physics : what is integrated, and its constants
     budget : seconds
-    work : number of right-hand sides, or of steps
     longest_step : s
-    outcome, message : how the run ended, and the reason
+    outcome : how the run ended
     began, seconds, wall : begin of the integration, and its processor and wall time, s
     """
 
@@ -113,10 +109,8 @@ class Meter:
         self.problem = problem
         self.physics = Physics(problem.parameters)
         self.budget = budget
-        self.work = 0
         self.longest_step = math.nan
         self.outcome = RunStatus.FINISHED
-        self.message = ""
         self.began = 0.0
         self.seconds = 0.0
         self.wall = 0.0
@@ -129,7 +123,7 @@ class Meter:
         try:
             yield
         except GaveUp as reason:
-            self.outcome, self.message = reason.args
+            (self.outcome,) = reason.args
         self.seconds = clock.thread_time() - self.began
         self.wall = clock.perf_counter() - wall
 
@@ -149,23 +143,22 @@ class Meter:
             kinds=tuple(kinds),
             final=final,
             seconds=self.seconds,
-            work=self.work,
             outcome=self.outcome,
-            message=self.message,
             longest_step=self.longest_step,
         )
 
     def check(self) -> None:
         """Raise `GaveUp` if the budget is used up."""
         if clock.thread_time() - self.began > self.budget:
-            raise GaveUp(RunStatus.TOO_SLOW, f"not finished after {self.budget:g} s")
+            raise GaveUp(RunStatus.TOO_SLOW)
 
     def counted(self, function: Callable[[float, Array], Array]) -> Callable[[float, Array], Array]:
-        """Return a right-hand side that counts its calls and sometimes looks at the clock."""
+        """Return a right-hand side that sometimes looks at the clock."""
+
+        calls = count()
 
         def wrapped(t: float, y: Array) -> Array:
-            self.work += 1
-            if self.work & CHECKED_CALLS == 0:
+            if next(calls) & CHECKED_CALLS == CHECKED_CALLS:
                 self.check()
             return function(t, y)
 

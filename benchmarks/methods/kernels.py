@@ -507,25 +507,23 @@ def _search_dips(modes, c, phase, direction, step, before, current, after, count
     count : number of event functions
     work : see `Work`
 
-    Returns the index of the function of an event, or -1, the place in the step by which it has
-    fallen below zero, s, and the number of Runge-Kutta steps taken.
+    Returns the index of the function of an event, or -1, and the place in the step by which it has
+    fallen below zero, s.
     """
     y, first, length, _ = step
     probe = work.probe
     trial = work.trial
-    steps = 0
     for index in range(count):
         share = _dip(before[index], current[index], after[index])
         if share > 0.0:
             place = share * length
             rk4_step(modes, c, phase, direction, y, first, place, probe, work.k, work.z)
-            steps += 1
             switch_values(modes, c, phase, direction, probe, trial)
             cause = violated(trial, count)
             if cause >= 0:
                 after[:] = trial
-                return cause, place, steps
-    return -1, length, steps
+                return cause, place
+    return -1, length
 
 
 @_kernel
@@ -539,7 +537,7 @@ def _locate(modes, c, phase, direction, step, cause, high, current, after, count
     end : array to fill with the state at the event
     work : see `Work`
 
-    Returns the index of the event's function, its place, s, and the number of Runge-Kutta steps.
+    Returns the index of the event's function and its place, s.
     """
     y, first, length, at_root = step
     lows = work.lows
@@ -548,7 +546,6 @@ def _locate(modes, c, phase, direction, step, cause, high, current, after, count
     at_low = current[cause]
     at_high = after[cause]
     side = 0
-    steps = 0
     middle = 0.0
     lows[:] = current
     for _ in range(ROOT_TRIES):
@@ -556,7 +553,6 @@ def _locate(modes, c, phase, direction, step, cause, high, current, after, count
         if not low < middle < high or (low == 0.0 and at_root):
             middle = 0.5 * (low + high)
         rk4_step(modes, c, phase, direction, y, first, middle, end, work.k, work.z)
-        steps += 1
         switch_values(modes, c, phase, direction, end, trial)
         other = violated(trial, count)
         if other >= 0:
@@ -580,7 +576,7 @@ def _locate(modes, c, phase, direction, step, cause, high, current, after, count
             lows[:] = trial
         if moved < ROOT_FOUND * length or trial[cause] == 0.0:
             break
-    return cause, middle, steps
+    return cause, middle
 
 
 @_kernel
@@ -609,7 +605,7 @@ def rk4_run(modes, c, phase, direction, y, limits, track):
     limits : end and step, s, greatest number of steps, whether to stop at the first separation
     track : arrays to fill: times and kinds of events
 
-    Returns how it ended, local time, phase, direction, and the numbers of events and steps.
+    Returns how it ended, local time, phase, direction, and the number of events.
     """
     t_end, h, max_steps, stop = limits
     times, kinds = track
@@ -665,10 +661,9 @@ def rk4_run(modes, c, phase, direction, y, limits, track):
         # a call with many arrays in each step would take a third of its time
         if cause < 0 < count and _first_dip(before, current, after, conditions) >= 0:
             step = Step(y, first, length, count == 0)
-            cause, high, further = _search_dips(
+            cause, high = _search_dips(
                 modes, c, phase, direction, step, before, current, after, conditions, work
             )
-            steps += further
         if cause < 0:
             y, end = end, y
             first, following_rate = following_rate, first
@@ -679,10 +674,9 @@ def rk4_run(modes, c, phase, direction, y, limits, track):
 
         # the event
         step = Step(y, first, length, count == 0)
-        cause, place, further = _locate(
+        cause, place = _locate(
             modes, c, phase, direction, step, cause, high, current, after, conditions, end, work
         )
-        steps += further
         y[:] = end
         local += place
         origin = local
@@ -696,4 +690,4 @@ def rk4_run(modes, c, phase, direction, y, limits, track):
         if stop and phase == SEPARATION:
             break
     final[:] = y
-    return why, local, phase, direction, events, steps
+    return why, local, phase, direction, events

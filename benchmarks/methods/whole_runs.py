@@ -59,9 +59,7 @@ def solve_by_series(problem: Problem, value: float, budget: float) -> MethodResu
         # the time of the steps; of a long run, which other processes may have interrupted, that of
         # the call
         seconds=min(result.statistics["wall_time"], call),
-        work=int(result.statistics["steps"]),
         outcome=outcome,
-        message=result.message,
     )
 
 
@@ -100,9 +98,8 @@ def solve_by_rk4(problem: Problem, value: float, budget: float) -> MethodResult:
 
     limits = (problem.span, value, _steps(budget, RK4_STEPS_PER_SECOND), problem.stop)
     with meter.running():
-        why, t, phase, direction, events, steps = kernels.rk4_run(*case, y, limits, track)
+        why, t, phase, direction, events = kernels.rk4_run(*case, y, limits, track)
     meter.outcome = RK4_OUTCOMES[why]
-    meter.work = 4 * steps
     meter.longest_step = value
     final = physics.unpack(start.time + t, PHASES[phase], direction, y)
     return meter.result(times[:events], [EVENT_KINDS[kind] for kind in kinds[:events]], final)

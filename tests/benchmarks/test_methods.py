@@ -127,7 +127,6 @@ def test_verdicts_on_results(changes: dict, verdict: str) -> None:
         kinds=changes.get("kinds", right.kinds),
         final=right.final.replace(alpha=right.final.alpha + changes.get("shaken", 0.0)),
         seconds=0.1,
-        work=1,
         outcome=changes.get("outcome", RunStatus.FINISHED),
     )
     assert scenes.errors(problem("stick_slip"), right, result).verdict.name == verdict

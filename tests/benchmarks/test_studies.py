@@ -57,7 +57,7 @@ def separating_above(speed: float):  # type: ignore[no-untyped-def]
         late = budget <= 0.1
         kinds = ("separation",) if problem.parameters.Omega >= speed and not late else ()
         outcome = RunStatus.TOO_SLOW if late else RunStatus.FINISHED
-        return MethodResult(np.ones(len(kinds)), kinds, problem.start, 0.1, 1, outcome)
+        return MethodResult(np.ones(len(kinds)), kinds, problem.start, 0.1, outcome)
 
     return solve
 
