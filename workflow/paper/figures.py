@@ -150,9 +150,15 @@ def contact_force(case: DataTree, history: Ranges = "history", zoom: Samples = "
 
 
 @case_figure()
-def one_separation(case: DataTree, zoom: Samples = "zoom") -> Figure:
+def one_separation(
+    case: DataTree, zoom: Samples = "zoom", lasting: Seconds | None = None
+) -> Figure:
     """(a) Displacements from static equilibrium around the first complete separation of a window,
-    (b) the gap."""
+    (b) the gap.
+
+    lasting : length of what is shown, from a tenth of it before the separation; if not given, half of the
+        separation before and after it
+    """
     layout = [["both"], ["gap"]]
     figure, axes = panels(layout, COLUMN, 1.5, sharex=True, height_ratios=(2, 1))
     samples = window_of(case, zoom)
@@ -161,28 +167,15 @@ def one_separation(case: DataTree, zoom: Samples = "zoom") -> Figure:
         raise Missing(f"has no complete separation in {zoom}")
     start, stop = complete
     margin = 0.5 * (stop - start)
-    part = after(samples.sel(time=slice(start - margin, stop + margin)), start)
+    ends = (start - margin, stop + margin)
+    if lasting is not None:
+        ends = (start - 0.1 * lasting, start + 0.9 * lasting)
+    part = after(samples.sel(time=slice(*ends)), start)
     draw_displacements(axes["both"], case, part)
     gap = 1e6 * (part["u"] - part["w"]) / part["u"].attrs["factor"]
     axes["gap"].plot(part["time"], gap, color=BLACK)
     shade_phases(axes["gap"], part, ["separation"])
     axes["gap"].set(xlabel=label(part["time"]), ylabel="Gap (μm)")
-    return figure
-
-
-@case_figure()
-def light_slider(case: DataTree, zoom: Samples = "zoom") -> Figure:
-    """Displacements from static equilibrium in a part of a window, with the losses of contact."""
-    figure, axes = panels([["a"]], COLUMN, 2.4)
-    samples = window_of(case, zoom)
-    complete = first_complete(samples) or samples["time"].values[[0, -1]]
-    start = float(complete[0]) - 0.0025
-    part = after(samples.sel(time=slice(start, start + 0.025)), start)
-    draw_displacements(axes["a"], case, part)
-    losses = part.sel(time=[first for first, _ in separations(part) if first > 0])
-    height = losses["w"] - rest_of(case, losses["w"])
-    axes["a"].plot(losses["time"], height, "o", color=RED, label="contact lost")
-    axes["a"].set_xlabel(label(part["time"]))
     return figure
 
 
