@@ -36,8 +36,6 @@ class Answer(NamedTuple):
     kinds: tuple[str, ...]
     """Kinds of the events, n words."""
     final: State
-    error: float
-    """Error of its own event times, s."""
 
 
 class Errors(NamedTuple):
@@ -146,7 +144,6 @@ def answer(name: str) -> Answer:
         times=np.array([np.longdouble(t) for t in right["times"]]),
         kinds=tuple(right["kinds"]),
         final=read_state(right["final"]),
-        error=right["largest_difference_to_check_run"],
     )
 
 

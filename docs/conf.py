@@ -9,8 +9,6 @@ import sys
 import tomllib
 from pathlib import Path
 
-from docutils import nodes
-from PIL import Image
 from pydantic import BaseModel
 
 import disc_model
@@ -67,9 +65,6 @@ linkcheck_ignore = [r"https?://(dx\.)?doi\.org/"]  # publishers turn away what i
 
 # ---- extensions of Sphinx of our own
 
-WIDE = 600
-"""Pixels from which on a picture is wide; one column of a figure has 438."""
-
 
 def short_signature(app, what, name, thing, options, signature, returns):
     """Return the signature of a pydantic model with names and defaults only.
@@ -100,17 +95,6 @@ def words_below_names(app, what, name, thing, options, lines):
     lines[:] = changed
 
 
-def mark_wide(app, doctree):
-    """Mark pictures as wide as a page, which keep a size on a phone at which they can be read."""
-    for image in doctree.findall(nodes.image):
-        file = Path(app.srcdir, image["uri"])
-        if file.suffix != ".png" or not file.is_file():
-            continue
-        with Image.open(file) as picture:
-            if picture.width > WIDE:
-                image["classes"].append("wide")
-
-
 def copy_mathjax(app, error):
     """Put what pages load of MathJax into the finished site."""
     if error is not None or app.builder.format != "html":
@@ -136,5 +120,4 @@ def setup(app):
     app.connect("builder-inited", write_options)
     app.connect("autodoc-process-signature", short_signature)
     app.connect("autodoc-process-docstring", words_below_names, priority=400)  # before numpydoc
-    app.connect("doctree-read", mark_wide)
     app.connect("build-finished", copy_mathjax)

@@ -233,12 +233,10 @@ class CaseView:
         if time.size > 1:
             half_bin = (time[1] - time[0]) / 2
         margin = 0.99 * half_bin
-        inside = (time >= start + margin) & (time <= stop - margin)
-        if not inside.any():
+        inside = self.history.sel(time=slice(start + margin, stop - margin))
+        if not inside.sizes["time"]:
             raise Missing(f"case {self.name} has no history from {start:g} to {stop:g} s")
-        low = self.history[f"{name}_min"].values[inside].min()
-        high = self.history[f"{name}_max"].values[inside].max()
-        return Range(float(low), float(high))
+        return Range(float(inside[f"{name}_min"].min()), float(inside[f"{name}_max"].max()))
 
     def late_range(self, name: str) -> Range:
         """Return the range of a variable over the last 20 s of the run."""
@@ -254,13 +252,8 @@ class CaseView:
         length : of a stretch, s
         count : number of stretches
         """
-        end = self["time_reached"]
-        widths = []
-        for i in range(count):
-            stop = end - i * length
-            start = end - (i + 1) * length
-            widths.append(self.range_of(name, start, stop).width)
-        return widths
+        ends = self["time_reached"] - length * np.arange(count)
+        return [self.range_of(name, end - length, end).width for end in ends]
 
     @property
     def quarters(self) -> list[float]:
