@@ -93,6 +93,7 @@ class GaveUp(Exception):
     """A run cannot go on; the argument is its status."""
 
 
+@dataclass
 class Meter:
     """The constants of a run, and what it comes to.
 
@@ -105,15 +106,16 @@ class Meter:
     began, seconds, wall : begin of the integration, and its processor and wall time, s
     """
 
-    def __init__(self, problem: Problem, budget: float) -> None:
-        self.problem = problem
-        self.physics = Physics(problem.parameters)
-        self.budget = budget
-        self.longest_step = math.nan
-        self.outcome = RunStatus.FINISHED
-        self.began = 0.0
-        self.seconds = 0.0
-        self.wall = 0.0
+    problem: Problem
+    budget: float
+    longest_step: float = math.nan
+    outcome: RunStatus = RunStatus.FINISHED
+    began: float = 0.0
+    seconds: float = 0.0
+    wall: float = 0.0
+
+    def __post_init__(self) -> None:
+        self.physics = Physics(self.problem.parameters)
 
     @contextmanager
     def running(self) -> Iterator[None]:
