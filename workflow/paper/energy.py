@@ -1,6 +1,5 @@
 """The energy of the transverse motion: what the slope supplies, and what damping and impacts take."""
 
-import math
 from collections.abc import Mapping, Sequence
 from itertools import pairwise
 from typing import Any, NamedTuple
@@ -153,23 +152,14 @@ def powers_between(
     return powers(p, run.u_0, theta, [*run.samples.values()]), run.final_state
 
 
-def power_history(p: Parameters, until: float, widest: float = math.inf) -> list[Powers]:
-    """Return powers at `STAGES` times of the motion from the static start.
-
-    Parameters
-    ----------
-    p : the case
-    until : the last time, s
-    widest : range of the slider's height in m beyond which the motion is not followed
-    """
+def power_history(p: Parameters, until: float) -> list[Powers]:
+    """Return powers at `STAGES` times of the motion from the static start, up to a time in s."""
     state = None
     history: list[Powers] = []
     times = np.linspace(0.0, until, STAGES + 1).tolist()
     for begin, end in pairwise(times):
         found, state = powers_between(p, max(begin, end - LENGTH), end, state)
         history.append(found)
-        if len(history) > 1 and history[-1].width > widest:
-            break
     return history
 
 
@@ -200,9 +190,7 @@ def taken_in_compliant_contact(p: Parameters, state: State) -> Array:
     return np.array(taken)
 
 
-def at_range(
-    p: Parameters, until: float, width: float, stages: Sequence[Powers] | None = None
-) -> tuple[Powers, float]:
+def at_range(p: Parameters, until: float, width: float, stages: Sequence[Powers]) -> Powers:
     """Return the powers of a growing motion about where its range has a width.
 
     A stage of `power_history` has the greatest range of seconds, in which the motion may grow much.
@@ -215,37 +203,27 @@ def at_range(
     p : the case
     until : time to which the motion is followed, s
     width : range of the slider's height, m
-    stages : the `power_history` to that time, if it is known
-
-    Returns
-    -------
-    powers : the means
-    end : end of the last of these instants, s
+    stages : the `power_history` to that time
 
     Raises
     ------
     Absent
         If the motion stays smaller, or is near that width in no instant.
     """
-    if stages is None:
-        stages = power_history(p, until, width)
     wider = [stage.width > width for stage in stages[1:]]
     if not any(wider):
         raise Absent(f"maintained contact comes to {1e3 * stages[-1].width:.3g} mm only")
-    beyond = wider.index(True)
-    begin = until * beyond / STAGES
+    begin = until * wider.index(True) / STAGES
     state = None
     if begin > 0:
         state = simulate(p, begin, events=False).final_state
     near: list[Powers] = []
-    last = math.nan
     for end in np.arange(begin + INSTANT, until + INSTANT / 2, INSTANT).tolist():
         found, state = powers_between(p, end - INSTANT, end, state, INSTANT_RATE)
         if found.width > (1 + NEAR) * width:
             break
         if found.width > (1 - NEAR) * width:
             near.append(found)
-            last = end
     if not near:
         raise Absent(f"maintained contact leaps over {1e3 * width:.3g} mm")
-    return Powers(*np.mean(near, axis=0).tolist()), last
+    return Powers(*np.mean(near, axis=0).tolist())

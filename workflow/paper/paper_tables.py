@@ -67,11 +67,9 @@ def table_2(case: CaseView) -> pd.DataFrame:
         row = {
             "ours_Hz": line.frequency,
             "level_dB": 20 * np.log10(line.amplitude / reference),
-            "ours_is": UNNAMED,
+            "ours_is": str(name) if abs(name.deviation) <= COMBINED else UNNAMED,
             "predicted_Hz": name.frequency,
         }
-        if abs(name.deviation) <= COMBINED:
-            row["ours_is"] = str(name)
         rows.append(row)
     return TABLE_2.join(pd.DataFrame(rows))[COLUMNS]
 
@@ -220,17 +218,9 @@ def impact_law(cases: Mapping[str, CaseView]) -> pd.DataFrame:
     rows = []
     for name, modes in zip(TABLE_CASES["impact_law"], TEXTS["impact_law"], strict=True):
         case = cases[name]
-        row: dict[str, Any] = {
-            "modes": modes,
-            "first_s": np.nan,
-            "rate_Hz": np.nan,
-            "longest_ms": np.nan,
-            "separated_%": np.nan,
-            "stick_%": np.nan,
-            "range_mm": np.nan,
-        }
+        row: dict[str, Any] = {"modes": modes}
         try:
-            found = {
+            row |= {
                 "first_s": case["first_separation"],
                 "rate_Hz": case.rate_of("separation"),
                 "longest_ms": 1e3 * case.longest_separation,
@@ -240,8 +230,8 @@ def impact_law(cases: Mapping[str, CaseView]) -> pd.DataFrame:
                 "releases": str(case.late_motion),
             }
         except Missing as reason:
-            found = {"releases": str(reason)}
-        rows.append({**row, **found})
+            row["releases"] = str(reason)
+        rows.append(row)
     return pd.DataFrame(rows)
 
 
