@@ -68,7 +68,6 @@ def failure_map(
                     "verdict": errors.verdict.name.lower(),
                     "event_error": errors.event_time,
                     "longest_step": result.longest_step,
-                    "events": len(result.kinds),
                 }
             )
     return pd.DataFrame(rows)

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import importlib.util
+import importlib
 import re
-import shutil
 import sys
 import tomllib
 from pathlib import Path
@@ -19,6 +18,7 @@ copyright = author
 release = disc_model.__version__
 
 extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx.ext.mathjax", "numpydoc"]
+extensions += ["sphinx-mathjax-offline"]  # formulas are set without a network
 exclude_patterns = ["_build", "measurements/*"]
 root_doc = "index"
 
@@ -55,8 +55,6 @@ if "Repository" in _ADDRESSES:
     html_theme_options["source_repository"] = _ADDRESSES["Repository"]
     html_theme_options["source_branch"] = "main"
     html_theme_options["source_directory"] = "docs/"
-# formulas are set by a MathJax of the site's own: it works without a network
-mathjax_path = "mathjax/tex-chtml.js"
 
 # ---- `make linkcheck`
 linkcheck_timeout = 20
@@ -95,19 +93,6 @@ def words_below_names(app, what, name, thing, options, lines):
     lines[:] = changed
 
 
-def copy_mathjax(app, error):
-    """Put what pages load of MathJax into the finished site."""
-    if error is not None or app.builder.format != "html":
-        return
-    package = Path(importlib.util.find_spec("sphinx-mathjax-offline").origin).parent
-    source = package / "static" / "mathjax"
-    target = Path(app.outdir) / "_static" / "mathjax"
-    fonts = Path("output", "chtml", "fonts")
-    target.mkdir(parents=True, exist_ok=True)
-    shutil.copy2(source / "tex-chtml.js", target)
-    shutil.copytree(source / fonts, target / fonts, dirs_exist_ok=True)
-
-
 def write_options(app):
     """Write the page of all options of quantities, which is not stored."""
     sys.path.insert(0, str(app.srcdir))
@@ -120,4 +105,3 @@ def setup(app):
     app.connect("builder-inited", write_options)
     app.connect("autodoc-process-signature", short_signature)
     app.connect("autodoc-process-docstring", words_below_names, priority=400)  # before numpydoc
-    app.connect("build-finished", copy_mathjax)

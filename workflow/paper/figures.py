@@ -93,14 +93,9 @@ def name_of_case(case: DataTree) -> str:
     return ", ".join(value_text(case.dataset[name]) for name in ("N", "Omega"))
 
 
-def rest_of(case: DataTree, x: DataArray) -> float:
-    """Height of the static equilibrium in the unit of a displacement."""
-    return placed(x, number_of(case, "u_0"))
-
-
 def draw_displacements(ax: Axes, case: DataTree, samples: Dataset) -> None:
     """Draw displacements of disc and slider from static equilibrium."""
-    rest = rest_of(case, samples["u"])
+    rest = placed(samples["u"], number_of(case, "u_0"))
     for name, x, colour, style in (
         ("disc", "w", BLUE, "-"),
         ("slider", "u", ORANGE, (0, (4, 1.5))),

@@ -29,7 +29,6 @@ TABLE_2 = pd.DataFrame(TEXTS["table_2"])
 """Lines of the paper's Table 2."""
 COLUMNS = ["symbol", "paper_Hz", "ours_Hz", "level_dB", "ours_is", "predicted_Hz", "paper_says"]
 """Columns of our Table 2."""
-LISTED = tuple(TABLE_2["paper_Hz"])
 
 SEARCHED = 2.0
 """Search width about a frequency of Table 2, Hz; a quarter of it about the drive's."""
@@ -78,10 +77,8 @@ def table_2_lines(case: CaseView) -> list[spectra.Line]:
     """Return the strongest line near each frequency of Table 2."""
     signal = case.signal("spectrum_a", 0, 10)
     found = []
-    for frequency in LISTED:
-        width = SEARCHED
-        if frequency <= LOWEST_SEARCHED:
-            width = SEARCHED / 4
+    for frequency in TABLE_2["paper_Hz"]:
+        width = SEARCHED / 4 if frequency <= LOWEST_SEARCHED else SEARCHED
         found.append(signal.strongest(frequency, width))
     return found
 
