@@ -107,6 +107,11 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
         },
         {"path": "text"},
     ),
+    (
+        RUN.animate,
+        {"window": "all", "frames": 2},
+        {"window": "None", "path": "None", "frames": "huge", "fps": "huge"},
+    ),
     (run, {}, {"progress": "None", "max_steps": "None huge", "audit_every_step": "True"}),
     (
         start,

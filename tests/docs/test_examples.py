@@ -168,14 +168,14 @@ def drawing_methods() -> list[Any]:
     methods = []
     for name in (*RETURNED, "Result"):
         for member in vars(resolve_name(f"disc_model.{name}")).values():
-            if getattr(member, "__name__", "").startswith("plot"):
+            if getattr(member, "__name__", "").startswith(("plot", "animate")):
                 methods.append(member)
     return methods
 
 
 def test_methods_that_draw_show_their_use_and_say_what_they_return_and_raise() -> None:
     methods = drawing_methods()
-    assert len(methods) == 7
+    assert len(methods) == 8
     for method in methods:
         for word in (">>> ", "Returns|returns", "Raises|raises"):
             assert re.search(word, method.__doc__), f"{method.__qualname__}: {word}"

@@ -5,14 +5,17 @@ import functools
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import replace
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 import pytest
 import xarray as xr
 from matplotlib import pyplot
+from matplotlib.animation import AbstractMovieWriter
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from PIL import Image
 
 import disc_model as dm
 from disc_model.analysis.spectra import amplitude_spectrum
@@ -417,7 +420,7 @@ def test_phases_of_a_run_are_told_apart() -> None:
     assert entries(run().plot()[0, 0]) == ["stick"]
 
 
-# ---- Modes
+# ---- Modes, and films
 
 
 def test_modes_are_drawn_with_their_nodal_lines_and_frequencies() -> None:
@@ -431,6 +434,33 @@ def test_modes_are_drawn_with_their_nodal_lines_and_frequencies() -> None:
         outer = np.asarray(ax.collections[0].get_array()).reshape(25, 181)[-1]
         assert np.count_nonzero(np.diff(np.sign(outer))) == 2 * diameters
     assert dm.plot_modes(CASE).size == len(found["omega"])
+
+
+class Seen(AbstractMovieWriter):
+    """A writer of films that looks at each picture: its title, and whether its force is the run's."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.titles: list[str] = []
+
+    def setup(self, fig: Figure, outfile: Any, dpi: float | None = None) -> None:
+        super().setup(fig, outfile, dpi)
+
+    def grab_frame(self, **_: Any) -> None:
+        assert_shows(self.fig, Shown(1, "y", "Contact force P", sampled("P"), "N"))
+        self.titles.append(self.fig.axes[1].get_title())
+
+    def finish(self) -> None:
+        pass
+
+
+def test_a_film_has_the_disc_and_the_force_at_each_of_its_times(tmp_path: Path) -> None:
+    seen = Seen()
+    run().animate(window="late", frames=3).save("film", writer=seen)
+    assert [title.split(",")[0] for title in seen.titles] == ["9.9500 s", "9.9750 s", "10.0000 s"]
+    run().animate(tmp_path / "film.gif", "late", frames=2)
+    with Image.open(tmp_path / "film.gif") as film:
+        assert film.n_frames == 2
 
 
 # ---- Points without a value
@@ -518,6 +548,9 @@ REFUSED = {
     "window='few': the run": lambda: run().plot_spectrum("few"),
     "highest=0.*: must be": lambda: run().plot_spectrum(highest=0),
     r"window='late': must be a recorded Poincare .*turns": lambda: run().plot_poincare("late"),
+    "frames=0: must be": lambda: run().animate(frames=0),
+    "path='film.txt': must end in": lambda: run().animate("film.txt"),
+    "window='lat': the run did not record": lambda: run().animate(window="lat"),
     "y='speed': must be one of": lambda: branch().plot("speed"),
     "ax=.*: must be axes": lambda: branch().plot(ax="axes"),
     "status='at_rest'.*no eigenvalues": lambda: dm.steady_sliding(CASE.replace(Omega=0)).plot(),

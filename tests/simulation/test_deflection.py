@@ -1,6 +1,8 @@
 """The whole disc's deflection: against the engine's own samples at one point, and the plate's
 clamp."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -74,3 +76,15 @@ def test_a_point_of_the_disc_does_not_jump_where_the_speed_of_the_drive_does(
     assert turned.slider_angle(P) == -turned.psi
     with refusal(r"drive_angle=nan: "):
         simulate(P, 0.1, initial_state=turned.replace(drive_angle=float("nan")))
+
+
+def test_a_film_shows_the_disc_and_the_slider_of_the_run_with_its_ramps(tmp_path: Path) -> None:
+    """They were those of a run without ramps, beside the force of the right one."""
+    run = simulate(P, 0.1, {"w": AT_ONE}, ramps=RAMPS)
+    path = tmp_path / "film.gif"
+    film = run.animate(path, window="w", frames=2)
+    disc, _ = film._fig.axes
+    (slider,) = (line for line in disc.lines if line.get_marker() == "s")
+    angle, radius = np.ravel(slider.get_data())
+    assert angle == pytest.approx(1.48 - run.final_state.psi, rel=1e-6)
+    assert radius == P.r_0

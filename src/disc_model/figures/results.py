@@ -26,7 +26,7 @@ from disc_model.figures.schema import known_units
 from disc_model.figures.shown import label, shown, shown_case
 from disc_model.figures.shown import window_of as shown_window
 from disc_model.figures.studies import draw_lines, draw_map
-from disc_model.parameters import foreign_case
+from disc_model.parameters import Parameters, foreign_case
 from disc_model.units import Count, Positive, Strict, Unit
 
 USUAL = (
@@ -231,6 +231,11 @@ def poincare(case: DataTree, name: str, units: Any) -> Any:
     figure.suptitle(", ".join(runs.fate_of(case, name)))
     explain(figure, axes, LETTERS)
     return axes
+
+
+def film(p: Parameters, states: Any, case: DataTree, name: str) -> Any:
+    """Make a film of states of a run beside the contact force in a window."""
+    return runs.animate(p, states, window_of(shown_case(case), name))
 
 
 # ---- Sweeps: what is drawn of them

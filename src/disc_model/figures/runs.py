@@ -1,4 +1,4 @@
-"""Figures of single runs: time histories, phase portraits, Poincaré sections and spectra.
+"""Figures of single runs: time histories, phase portraits, Poincaré sections, spectra, and films.
 
 What they draw on axes are windows of a `shown` case, see `window_of`.
 """
@@ -9,6 +9,7 @@ from typing import Annotated, Any
 
 import numpy as np
 from cmcrameri import cm
+from matplotlib.animation import FuncAnimation
 from matplotlib.axes import Axes
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
@@ -18,10 +19,12 @@ from xarray import DataArray, Dataset, DataTree
 from disc_model.analysis.classify import FEWEST, first_settled
 from disc_model.analysis.spectra import amplitude_spectrum, lines, time_frequency
 from disc_model.data.dataset import Missing
+from disc_model.disc.plate import radial_range
 from disc_model.figures.draw import COLUMN, PAGE, compare, edges, frame, mark_points, panels
 from disc_model.figures.looks import BLACK, GREY, OF_PHASE, OF_VARIABLE, RED, SKY, Options
 from disc_model.figures.schema import Cases, Either, Recorded, Sampled, Samples, case_figure
 from disc_model.figures.shown import label, value_text, window_of, words
+from disc_model.parameters import Parameters
 from disc_model.units import Positive, Unit
 
 Hertz = Annotated[Positive, Unit("Hz")]
@@ -342,3 +345,33 @@ def mark_slider(ax: Axes, x: float, y: float, phase: str) -> None:
         markeredgecolor=BLACK,
         label=f"slider, {phase}",
     )
+
+
+def animate(case: Parameters, states: Sequence[Any], samples: Dataset) -> FuncAnimation:
+    """A film of the disc from above, in mm, and of the contact force.
+
+    states : of the pictures, in time
+    samples : shown window that covers them
+    """
+    from disc_model.simulation.states import deflection
+
+    r = np.linspace(*radial_range(case), 25)
+    w = 1e3 * deflection(case, states, r, np.linspace(0, 2 * np.pi, 181))
+    end = float(abs(w).max()) or 1.0
+    figure, axes = panels(
+        [["disc", "force"]], PAGE, 2.6, per_subplot_kw={"disc": {"projection": "polar"}}
+    )
+    disc, force = axes.values()
+
+    def draw(i: int) -> list[Axes]:
+        state = states[i]
+        disc.cla()
+        draw_disc(disc, w[i], Normalize(-end, end))
+        mark_slider(disc, state.material_angle(case), case.r_0, state.phase)
+        force.cla()
+        draw_history([force], samples, ["P"])
+        force.axvline(state.time, color=RED)
+        force.set_title(f"{state.time:.4f} s, {state.phase}")
+        return []
+
+    return FuncAnimation(figure, draw, frames=len(states))

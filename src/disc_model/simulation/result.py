@@ -30,6 +30,7 @@ from disc_model.units import Finite, Real, Strict
 if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
+    from matplotlib.animation import FuncAnimation
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
@@ -449,6 +450,64 @@ class Result(Summarised, EqualByValue):
         pictures = drawings()
         case, name = self._shown(window, "poincare")
         return pictures.poincare(case, name, units)
+
+    def animate(
+        self,
+        path: str | Path | None = None,
+        window: str | None = None,
+        *,
+        frames: int = 60,
+        fps: int = 12,
+    ) -> FuncAnimation:
+        """Make a film of the disc from above, its deflection under the slider, and the contact
+        force beside it.
+
+        Parameters
+        ----------
+        path : file to write, such as ``cycle.gif``, or ``cycle.mp4`` by ffmpeg; None writes nothing
+        window : name of a recorded window; otherwise the last cycles
+        frames, fps : number of pictures, and of those shown in a second
+
+        Returns
+        -------
+        matplotlib.animation.FuncAnimation
+
+        Raises
+        ------
+        ParameterError
+            If the file has another suffix or no folder.
+
+        Examples
+        --------
+        >>> import disc_model as dm
+        >>> film = dm.simulate(dm.Parameters(N=385, Omega=15.1), 1).animate("cycle.gif", frames=2)
+        """
+        from disc_model.simulation.api import snapshots
+
+        pictures = drawings()
+        # what cannot be written is refused before anything is computed
+        file = Path(path or "film.gif")
+        known = file.suffix in (".gif", ".mp4") and file.absolute().parent.is_dir()
+        rule = "must end in .gif or .mp4, in a folder that exists; a window is given by window="
+        require(
+            (known, "path", str(path), rule),
+            (frames >= 1, "frames", frames, "must be >= 1"),
+            (fps > 0, "fps", fps, "must be > 0"),
+        )
+        case, name = self._shown(window, "end")
+        time = pictures.window_of(case, name)["time"]
+        states = snapshots(
+            self.parameters,
+            np.linspace(float(time[0]), float(time[-1]), frames),
+            tol=self.tol,
+            initial_state=self.initial_state,
+            ramps=self.ramps,
+        )
+        made = pictures.film(self.parameters, states, case, name)
+        if path is not None:
+            writer = "pillow" if file.suffix == ".gif" else "ffmpeg"
+            made.save(path, writer=writer, fps=fps, dpi=100)
+        return made
 
     def _shown(self, window: str | None, otherwise: str) -> tuple[xr.DataTree, str]:
         """Windows of the run, and the name of the one to show: a recorded one if it is named, and
