@@ -142,21 +142,6 @@ class NearCycle:
             return None
         return replace(self, distance=orbit.end - self.x, time=self.time + orbit.period)
 
-    def stays_linear_until(self, horizon: float) -> bool:
-        """Whether a motion that leaves an unstable cycle is still near it at the horizon (s), as
-        the linear map predicts."""
-        periods = self._periods_left(horizon)
-        near = NEAR * self.map.deflection
-        # the leading part alone excludes most motions, of which powers might overflow
-        if not periods * self._growth + math.log(self._leading_part) <= math.log(2 * near):
-            return False
-        distance = self._ahead(periods)
-        if not np.linalg.norm(distance) <= near:
-            return False
-        return abs(self._excess_rate(distance)) <= LARGEST_OUTSIDE or self._is_linear(
-            distance, TEST_TIMES[0]
-        )
-
     def extrapolate(self, latest: float) -> tuple[Array, float] | None:
         """Where a motion that slowly leaves an unstable cycle comes to as long as the linear map
         describes it, no later than at a time (s): point of the section and time; None if it leaves
