@@ -9,7 +9,6 @@ import pytest
 from disc_model.data.variables import Outcome
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
-from disc_model.stability import follower
 from disc_model.stability.cycle import find_cycle
 from disc_model.stability.follower import (
     NearCycle,

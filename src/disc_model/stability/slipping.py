@@ -17,7 +17,7 @@ from scipy.optimize import brentq
 from disc_model.arrays import Array
 from disc_model.data.variables import CycleStatus
 from disc_model.disc.plate import mode_arrays
-from disc_model.engine import columns, saltation, transitions
+from disc_model.engine import columns, saltation, section, transitions
 from disc_model.engine import state as motion
 from disc_model.engine.loop import FlightLimits
 from disc_model.engine.model import build_state
@@ -32,7 +32,6 @@ from disc_model.stability.return_map import (
     Orbit,
     Passage,
     ReturnMap,
-    integrate_in_pieces,
     longest_step,
     newton,
 )
@@ -188,7 +187,7 @@ class SlippingMap(ReturnMap):
             may_separate=False,
             tangent=tangent,
         )
-        code = integrate_in_pieces(self.model, self._series, self._state, self._tangent, limits)
+        code = section.integrate(self.model, self._series, self._state, self._tangent, limits)
         if code != transitions.TIME_OVER:
             return code
         return STOPS if log[columns.STICKS] + log[columns.REVERSALS] > 0 else RETURNED
