@@ -28,16 +28,12 @@ def near_start(p: Parameters) -> NearCycle:
 
 
 @pytest.mark.parametrize(
-    ("N", "Omega", "waits"),
-    [(50.0, 15.0, 0.0), (540.0, 24.5, 1.5), (584.5, 40.1, 6.0), (429.2966, 28.01568, 15.0)],
+    ("N", "Omega"), [(50.0, 15.0), (540.0, 24.5), (584.5, 40.1), (429.2966, 28.01568)]
 )
-def test_a_motion_near_a_cycle_is_the_simulated_one_at_its_time(N, Omega, waits) -> None:
-    """Also if it follows the cycle only after strongly damped modes have decayed."""
+def test_a_motion_near_a_cycle_is_the_simulated_one_at_its_time(N, Omega) -> None:
+    """Also if strongly damped modes still decay."""
     near = near_start(Parameters(N=N, Omega=Omega))
     assert near.follows_cycle
-    first = near.map.first_release.time
-    assert near.time - first == pytest.approx(waits, abs=0.02)  # a period
-    assert (near.time == first) == (waits == 0)
     # a picosecond before the release
     there = simulate(near.cycle.parameters, near.time - 1e-12, tol=1e-13).final_state
     x = near.map.point(there)

@@ -591,7 +591,7 @@ def near(*, stable: bool = False) -> NearCycle:
     known = {"growth_rate": 0.1, "period": 0.015, "releases": 1, "separations": 0, "parameters": P}
     cycle: Any = SimpleNamespace(stable=stable, **known)
     map_: Any = SimpleNamespace(deflection=1.0)
-    return NearCycle(cycle, True, map_, np.zeros(2), np.zeros(2), np.eye(2))
+    return NearCycle(cycle, map_, np.zeros(0), np.zeros(0), np.eye(0))
 
 
 NO_CYCLE = SimpleNamespace(motion=CycleStatus.NO_CYCLE)

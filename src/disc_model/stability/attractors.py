@@ -105,7 +105,7 @@ def arrival(p: Parameters, legs: Sequence[Result], most: int = sys.maxsize) -> A
     if equilibrium is not None:
         return Arrival(Settling(Settled.SETTLED, least=0.0, since=now), equilibrium)
     near = _cycle_reached(p, leg, most)
-    if near is not None and near.follows_cycle:  # of stable cycles only
+    if near is not None and near.cycle.stable and near.follows_cycle:
         return Arrival(Settling(Settled.SETTLED, near.cycle.growth_rate, 0.0, now), near=near)
     if near is not None and near.lingers:
         return Arrival(Settling(Settled.CHANGING, near.cycle.growth_rate, 0.0))
