@@ -13,8 +13,8 @@ HEAD = """\
 # Options of quantities
 
 All keys under `options` of a study file, by [quantity](study_reference.md#quantities), and arguments of the function of
-this name in Python. *Required* ones have no default. Numbers may have [units](study_reference.md#axes). `lines` and `rates`
-are lists of numbers and of ranges such as `{start: 5, stop: 50, count: 10}`, or one range.
+this name in Python. *Required* ones have no default. Numbers may have [units](study_reference.md#axes).
+`lines` and `rates` are lists of numbers and of ranges such as `{start: 5, stop: 50, count: 10}`, or one range.
 """
 HEADS = ("option", "type", "unit", "default", "meaning")
 KINDS = {

@@ -51,7 +51,7 @@ def command(capsys: pytest.CaptureFixture[str]) -> Command:
         ("modes b=0.05", 2, "error: r_0=0.1: must be <= b=0.05\n"),
         ("modes disc=none.csv", 2, "none.csv"),
         ("run N=1 Omega=1", 2, "--t-end"),
-        ("run N=1 Omega=1 --t-end 1kg", 2, "error: t_end='1kg': must be finite"),
+        ("run N=1 Omega=1 --t-end 1kg", 2, "error: t_end='1kg': must be a number in s"),
         (f"{SHORT} --save x.txt", 2, "error: path='x.txt': must end in .nc"),
         ("run N=1e3 Omega=100 mu_s=20 mu_k=20 k_p=1e6 --t-end 1", 1, "paradox"),
         ("study none.yaml", 2, "error: none.yaml"),

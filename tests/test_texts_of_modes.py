@@ -50,7 +50,7 @@ def test_a_changed_copy_takes_texts_with_units(name: str, text: str, value: floa
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
-        ({"omega_2_0": "5 kg"}, "omega_2_0='5 kg': the unit of omega must be Hz, kHz or rad/s"),
+        ({"omega_2_0": "5 kg"}, "omega_2_0='5 kg': the unit of omega must be Hz, kHz, rad/s"),
         ({"omega_2_0": "fast"}, "omega_2_0='fast': must be a number"),
         ({"amplitude_0_0": "3 m"}, "amplitude_0_0='3 m': the unit of amplitude must be kg^-1/2"),
     ],

@@ -101,5 +101,5 @@ def test_arguments_of_functions_may_have_units_too() -> None:
     at = deflection(p, states, UNITS.Quantity(10, "cm"), UNITS.Quantity(90, "deg"))
     assert at.equals(deflection(p, states, 0.1, 1.5707963267949))
     assert Window(last="30 ms", rate="2 kHz") == Window(last=0.03, rate=2000)
-    with refusal("t_end='10 kg': must be finite, in s or as '2 min'"):
+    with refusal("^t_end='10 kg': .* s,"):
         simulate(p, "10 kg")

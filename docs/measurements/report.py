@@ -1,4 +1,4 @@
-"""Write the tables of the comparisons with measurements: `make measurements`."""
+"""Write the tables of the comparisons with measurements: `python -m docs.measurements.report`."""
 
 from collections.abc import Callable, Iterable
 from pathlib import Path

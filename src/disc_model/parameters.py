@@ -222,7 +222,7 @@ class Parameters(Strict):
         if self.disc is not None or None in (self.a, self.b, self.h, self.E):
             return
         if self.h > 0.2 * (self.b - self.a):
-            yield "h is more than a fifth of b - a: the disc is modelled as a thin plate"
+            yield "h is more than a fifth of b - a: a thin plate is too stiff, Disc.from_section is not"
         if self.E < SOFTEST:
             yield f"E is below {SOFTEST:g} Pa: Young's modulus is a number in Pa, or has a unit, as in '150 GPa'"
 

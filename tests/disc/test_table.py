@@ -89,7 +89,7 @@ def test_what_is_no_such_table_is_refused_with_the_heads(
         (f"{HEADS}\n2,1212,0.5\n2,1220,0.5", "pair of modes given once"),
         (
             f"{HEADS},tangential_per_sqrt_kg\n0,929,0.4,0.1",
-            "tangential.0=0.1: must be 0 for a mode without",
+            "tangential=.0.1.: must be 0 for a mode without",
         ),
         (HEADS, "1 to 1000 modes"),
     ],
@@ -104,6 +104,6 @@ def test_numbers_keep_the_rules_of_a_disc(text: str, words: str, tmp_path: Path)
 def test_a_mode_without_nodal_diameters_has_no_tangential_amplitude() -> None:
     """Steady sliding used it, and the engine did not."""
     modes = {"diameters": [2, 0], "omega": [2500, 1500], "amplitude": [1.0, 1.0]}
-    with refusal(r"tangential\.1=0\.3: must be 0 for a mode without nodal diameters"):
+    with refusal(r"tangential=.*0\.3\]: must be 0 for a mode without nodal diameters"):
         dm.Disc(**modes, tangential=[-0.1, 0.3])
     assert dm.Disc(**modes, tangential=[-0.1, -0.0]).tangential == (-0.1, 0.0)

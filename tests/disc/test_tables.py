@@ -91,9 +91,9 @@ def test_faults_of_columns_are_named() -> None:
     with refusal(r"omega.1=100.5: modes 1 and 2 .* 0.5 % apart"):
         dm.Disc(**given)
     assert dm.Disc(**given, circles=[0, 1]).damping_ratio == (0, 0)
-    with refusal("omega=1 values: must be as many as diameters, 2"):
+    with refusal("omega=1: must be as many as diameters, 2"):
         dm.Disc(diameters=[2, 3], omega=[100], amplitude=[2, 1])
-    with refusal("diameters=9000 modes: must be 1 to 1000 modes"):
+    with refusal("diameters=9000: must be 1 to 1000 modes"):
         dm.Disc(
             diameters=[2] * 9000, omega=range(100, 9100), amplitude=[1] * 9000
         )  # circles are not counted before

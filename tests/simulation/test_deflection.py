@@ -74,8 +74,8 @@ def test_a_point_of_the_disc_does_not_jump_where_the_speed_of_the_drive_does(
     turned = first.final_state.replace(time=0.0)
     assert turned.drive_angle is None
     assert turned.slider_angle(P) == -turned.psi
-    with refusal(r"^drive_angle=nan: must be a finite number, or None"):
-        turned.replace(drive_angle=float("nan"))
+    with refusal(r"drive_angle=nan: "):
+        simulate(P, 0.1, initial_state=turned.replace(drive_angle=float("nan")))
 
 
 def test_a_film_shows_the_disc_and_the_slider_of_the_run_with_its_ramps(tmp_path: Path) -> None:

@@ -83,18 +83,18 @@ INSIDE = "must be at or above the disc under the slider"
 @pytest.mark.parametrize(
     ("p", "arguments", "fault"),
     [
-        (P, {}, "t_end: is required, or duration"),
-        (P, {"t_end": 1, "duration": 1}, "t_end=1: must be left out"),
-        (P, {"t_end": 0.0}, "t_end=0: must be finite"),
-        (P, {"duration": "5 kg"}, "duration='5 kg': must be finite"),
+        (P, {}, "^t_end=None: "),
+        (P, {"t_end": 1, "duration": 1}, "^t_end=1: .*duration"),
+        (P, {"t_end": 0.0}, "^t_end=0: must be > 0"),
+        (P, {"duration": "5 kg"}, "^duration='5 kg': .* s,"),
         (P, {"t_end": 1, "tol": 0.9e-15}, r"tol=.*: must be within 1e-15 and 0\.01$"),
         (P, {"t_end": 1, "tol": 1.1e-2}, r"tol=.*: must be within 1e-15 and 0\.01$"),
-        (P, {"t_end": 1, "stop_at": "end"}, "stop_at='end': must be None or 'first_separation'"),
-        (P, {"t_end": 1, "events": 1}, "events=1: must be True or False"),
+        (P, {"t_end": 1, "stop_at": "end"}, "^stop_at='end': .*'first_separation'"),
+        (P, {"t_end": 1, "events": 1}, "^events=1: must be a valid boolean"),
         (P, {"t_end": 1, "ramps": "x"}, "^ramps="),
         (P.replace(N=0), {"t_end": 1, "ramps": STOP}, "N=0: must be > 0 where there are ramps"),
         (P, {"t_end": 1, "stop_at": "first_separation", "windows": {"w": Window(last=1, rate=9)}},
-         "windows.w.last: must not be given with stop_at"),
+         "^windows.w.last=1: must not be given with stop_at"),
         # a slider within the disc was put on it, or reattached at once, without a word
         *((p, {"t_end": 1, "initial_state": at_rest("separation", u=u)}, INSIDE)
           for u in (-1e-6, -0.1) for p in (STANDING, SOFT)),

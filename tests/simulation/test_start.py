@@ -37,7 +37,7 @@ def test_a_start_is_a_state() -> None:
 @pytest.mark.parametrize(
     ("given", "fault"),
     [
-        ({"start": {"v": 1.0}}, "start.v="),
+        ({"start": {"v": 1.0}}, "v='v': must be 'u', 'u_velocity' or 'f'"),
         ({"prerun": {"parameters": {"Omga": 3}, "time": 1}}, "prerun.parameters.Omga=3"),
         ({"prerun": {"parameters": {"n_diameters": 2}, "time": 1}}, "prerun.parameters.n_diam"),
         ({"prerun": {"parameters": {"mu_k": 0.9}, "time": 1}}, "mu_k=0.9"),
@@ -66,7 +66,7 @@ def test_a_state_of_other_modes_is_refused(use: Callable[[State], Any]) -> None:
     state = simulate(ORTHONORMAL, 0.1).final_state
     assert state.mode_amplitudes is not None
     for factor in (np.array([1.0, 1.0, 1.0, -1.0, 1.0]), 1 + 1e-6):
-        with refusal(r"(must be psi of plate_modes|must be a State with the case's modes)"):
+        with refusal(r"(must be psi of plate_modes|must be states of the case)"):
             use(state.replace(mode_amplitudes=factor * state.mode_amplitudes))
 
 

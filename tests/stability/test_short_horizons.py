@@ -30,6 +30,6 @@ def test_a_kick_that_ends_in_steady_sliding_does_not_separate_for_good() -> None
 @pytest.mark.compiled
 def test_a_slow_departure_is_followed_until_contact_is_lost() -> None:
     """A drift that does not slow down was taken for an approach 10 s before contact was lost."""
-    found = basins(Parameters(N=385, Omega=14), [0.1], 3, horizon=60, n_bisection_directions=0)
+    found = basins(Parameters(N=385, Omega=14), [0.1], 3, horizon=60)
     assert (found["kind"] == "separating").all()
     assert (found["lost_contact"] == "yes").all()

@@ -142,7 +142,7 @@ def test_critical_speed_scans_the_simulated_motions(law: str) -> None:
 def test_a_map_has_the_simulated_first_separations(law: str) -> None:
     for p in separating(law, 2):
         axes = {"N": [0.95 * p.N, p.N], "Omega": [0.9 * p.Omega, p.Omega]}
-        found = studied(p, "regions", axes=axes, horizon=HORIZON, extrapolate=False)
+        found = dm.sweep(dm.regions, p, **axes, horizon=HORIZON)
         for N in axes["N"]:
             for Omega in axes["Omega"]:
                 first = first_separation(p.replace(N=N, Omega=Omega))
@@ -159,7 +159,7 @@ def test_samples_of_sensitivity_separate_when_their_simulations_do(law: str) -> 
     drawn_k = {"distribution": "uniform", "low": 0.95, "high": 1.05, "relative": True}
     options = {"distributions": {"k": drawn_k}, "samples": 8, "simulated_samples": 4}
     for p in separating(law, 2):
-        found = studied(p, "sensitivity", horizon=HORIZON, extrapolate=False, **options)
+        found = studied(p, "sensitivity", horizon=HORIZON, **options)
         assert (found["outcome"][4:] == "not_simulated").all()  # beyond the number that is followed
         for sample in range(4):
             there = found.isel(sample=sample)
@@ -224,9 +224,7 @@ def test_basins_lose_contact_when_the_simulated_starts_do(law: str) -> None:
     horizon = 8.0
     for p in separating(law, 1):
         energies = [1e-4, 0.3]
-        found = studied(
-            p, "basins", energies=energies, n_starts=2, horizon=horizon, n_bisection_directions=0, seed=3
-        )  # fmt: skip
+        found = studied(p, "basins", energies=energies, n_starts=2, horizon=horizon, seed=3)
         times = found["simulated_time"]
         for j, energy in enumerate(energies):
             for i in range(2):

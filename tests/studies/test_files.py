@@ -64,7 +64,7 @@ def test_a_file_that_cannot_be_read_is_told(name: str, tmp_path: Path) -> None:
 
 
 def test_what_is_shipped_is_made_from_the_models() -> None:
-    """After a change of the models: make schema."""
+    """After a change of the models, `write_schema.py` writes it anew."""
     assert SHIPPED.read_text(encoding="utf-8") == schema_text()
 
 

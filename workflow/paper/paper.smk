@@ -83,7 +83,7 @@ rule show_model:
 
 
 rule compare_normalisations:
-    # Needs the paper's cases under both normalisations: `make orthonormal` computes the second set and runs this.
+    # Needs the paper's cases under both normalisations.
     input:
         published=collect("results/paper/cases/{x}.nc", x=STUDY.specs),
         orthonormal=collect("results/paper_orthonormal/cases/{x}.nc", x=STUDY.specs),
@@ -107,7 +107,7 @@ rule compare_normalisations:
 
 
 rule judge_survival:
-    # Needs the motions and grids of config/survival.yaml: `make survival` computes them and runs this.
+    # Needs the motions and grids of config/survival.yaml.
     input:
         cases=collect("results/survival/cases/{x}.nc", x=STUDY.specs),
         grids=[f"results/{name}/{name}.nc" for name in SURVIVAL_GRIDS],

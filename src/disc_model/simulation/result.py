@@ -489,7 +489,11 @@ class Result(Summarised, EqualByValue):
         file = Path(path or "film.gif")
         known = file.suffix in (".gif", ".mp4") and file.absolute().parent.is_dir()
         rule = "must end in .gif or .mp4, in a folder that exists; a window is given by window="
-        require((known, "path", str(path), rule))
+        require(
+            (known, "path", str(path), rule),
+            (frames >= 1, "frames", frames, "must be >= 1"),
+            (fps > 0, "fps", fps, "must be > 0"),
+        )
         case, name = self._shown(window, "end")
         time = pictures.window_of(case, name)["time"]
         states = snapshots(

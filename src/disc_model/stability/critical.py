@@ -266,15 +266,18 @@ def critical(
             scan.at(value)
         if kind != SLIDING:
             look_for_tongues(scan, NARROWEST * (high - low))
-        scan.locate(SHORTEST * (high - low))
-    changes = [(above, scan.at(below), scan.at(above)) for below, above in scan.changes()]
+        shortest = SHORTEST * (high - low)
+        scan.locate(shortest)
+        changes = [(above, scan.at(below)) for below, above in scan.changes()]
+        jumps = [
+            x for x, _ in changes if scan.jumps(max(x - shortest, low), min(x + shortest, high))
+        ]
     known = sorted(scan.motions.items())
-    jumps = [x for x, below, above in changes if abs(above.period / below.period - 1) > JUMP]
     return Critical(
         parameters=case,
         name=name,
-        crossings=np.array([x for x, *_ in changes]),
-        unstable_above=np.array([below.stable for _, below, _ in changes], dtype=bool),
+        crossings=np.array([x for x, _ in changes]),
+        unstable_above=np.array([below.stable for _, below in changes], dtype=bool),
         jumps=np.array(jumps),
         values=np.array([x for x, _ in known]),
         growth_rate=np.array([motion.growth_rate for _, motion in known]),
@@ -325,6 +328,10 @@ class Scan:
         rate = cycle.sliding_growth_rate if slides else math.nan
         stable = cycle.motion in STABLE_CYCLES
         return Motion(stable, cycle.growth_rate, rate, cycle.period, cycle.multipliers)
+
+    def jumps(self, low: float, high: float) -> bool:
+        """Whether cycles at two values are none of one branch, by their periods."""
+        return abs(self.at(high).period / self.at(low).period - 1) > JUMP
 
     def changes(self) -> list[tuple[float, float]]:
         """Neighbouring values between which stability changes."""
