@@ -148,6 +148,9 @@ def test_a_periodic_attractor_is_known_by_its_fixed_point() -> None:
     """The separating motion at 14 rad/s separates once between two releases of stick, again and
     again."""
     basins = Basins(P14, 100.0)
+    start = static_start(P14)
+    for kick in (0.0, 2.0):
+        basins.follow(perturb(P14, start, u=-kick * abs(start.u)))
     quiet, separating = basins.known
     assert separating.kind == Outcome.SEPARATING
     assert separating.releases == 1

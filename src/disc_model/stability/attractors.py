@@ -30,7 +30,7 @@ from disc_model.engine.record import LOSS_OF_CONTACT, STICK_TO_SLIP
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.result import Result
-from disc_model.simulation.states import State, perturb, slip_rate, static_start
+from disc_model.simulation.states import State, slip_rate, static_start
 from disc_model.stability.cycle import may_stick_and_slip
 from disc_model.stability.follower import (
     FIRST_LEG,
@@ -63,8 +63,6 @@ REPETITION = 40.0
 RECORD = 40.0  # s, of a settled motion by which its regularity is found
 SAME = 0.05  # segments that differ by less are of one attractor
 SMALLEST = 1e-3  # range, over the static deflection, below which ranges count as equal
-# downward, over the static deflection, from which attractors are sought
-OWN_STARTS = (0.0, 0.25, 0.5, 1.0, 2.0)
 EQUILIBRIA = {Outcome.AT_REST, Outcome.STEADY_SLIDING}
 """Kinds of which a case has one attractor."""
 
@@ -241,24 +239,17 @@ def regularity(p: Parameters, state: State, tol: float) -> Motion:
 
 
 class Basins:
-    """The attractors of a case, `known` in the order in which they were found: those reached from
-    `OWN_STARTS` and from later starts, of motions that are followed to the horizon (s).
-
-    static : static deflection under the preload, m
-    smallest : range of the height below which ranges count as equal, m
-    """
+    """The attractors of a case, `known` in the order in which they were found, of motions that are
+    followed to the horizon (s)."""
 
     def __init__(self, p: Parameters, horizon: float, *, tol: float = 1e-10) -> None:
         self.p = p
         self.horizon = horizon
         self.tol = tol
         modes = mode_arrays(p)
-        self.static = p.N * float(np.sum(modes.psi**2 / modes.omega**2))
-        self.smallest = max(SMALLEST * self.static, sys.float_info.min)
+        static = p.N * float(np.sum(modes.psi**2 / modes.omega**2))
+        self.smallest = max(SMALLEST * static, sys.float_info.min)  # ranges below, in m, are equal
         self.known: list[Attractor] = []
-        for kick in OWN_STARTS:
-            start = static_start(p)
-            self.follow(perturb(p, start, u=-kick * self.static) if kick else start)
 
     def follow(self, state: State) -> OutcomeResult:
         """Outcome of the motion from a state at time 0; a new attractor is added to `known`."""
