@@ -241,9 +241,7 @@ class CycleProblem:
         if len(sides) == 2:
             return (self.residual(z + move) - self.residual(z - move)) / (2 * DIFFERENCE)
         [side] = sides
-        near = self.residual(z + side * move)
-        far = self.residual(z + 2 * side * move)
-        return side * (4 * near - 3 * here - far) / (2 * DIFFERENCE)
+        return side * (self.residual(z + side * move) - here) / DIFFERENCE
 
     def _is_case(self, z: Array) -> bool:
         """Whether the parameters of z are those of a case."""
