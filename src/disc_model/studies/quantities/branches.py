@@ -105,9 +105,9 @@ def branches(
         """Continue a cycle in both directions, unless a known branch passes there."""
         nonlocal failures, left_out
         assert cycle.state is not None
-        size = extremes_of_cycle(cycle.parameters, cycle.state, cycle.period).range
+        low, high = extremes_of_cycle(cycle.parameters, cycle.state, cycle.period)
         value = cycle.parameters.numbers[name]
-        if any(_passes(row, value, cycle.period, size) for row in rows):
+        if any(_passes(row, value, cycle.period, high - low) for row in rows):
             return
         if len(rows) >= MOST_BRANCHES:
             left_out += 1
