@@ -33,6 +33,14 @@ WINDOWS = {  # a case, what is searched, and within bounds the places of changes
         [267.9948, 273.3199],
         1,
     ),
+    # a pair passes through 1 and comes back: its angle has the same sign at both ends
+    "touch": (
+        {"N": 182.84010057915575, "Omega": 9.219889478738258, **ORTHONORMAL},
+        ("k_p", (10_100, 10_300), 3),
+        (10_100, 10_300),
+        [10_232.6, 10_234.9],
+        1,
+    ),
     "fold": ({"N": 385, "Omega": 12}, ("Omega", (14, 16), 5), (14, 16), [15.094912], 0),
 }
 

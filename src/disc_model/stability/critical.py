@@ -51,6 +51,9 @@ ROUNDS = 8  # times that places of suspected instability are predicted anew
 LONGEST_TURN = (
     0.3  # rad, of a multiplier from one value to the next: beyond, it may be taken for another
 )
+# the angles of a pair at two values, from the real axis, over the longest turn of any multiplier:
+# up to this, the pair may have met the axis in between, and have left it again on the same side
+MAY_HAVE_MET = 1.5
 # relative change of the period at a change of stability, of two cycles on no one branch
 JUMP = 1e-4
 
@@ -379,8 +382,15 @@ def _doubtful_shares(first: ComplexArray, second: ComplexArray) -> list[float]:
     before, after = first[rows], second[columns]
     between = turns_of(before, after)
     shares = {each.share for each in passings(between) if 0 < each.share < 1}
+    longest = float(np.abs(between.turns).max(initial=0))
+    # a pair that passes through the real axis looks like one that has turned back
+    angles = np.array([between.angles, between.angles + between.turns])
+    for ends in (angles, math.pi - angles):
+        way = ends.sum(axis=0)
+        may_have_met = (ends > 0).all(axis=0) & (way <= MAY_HAVE_MET * longest)
+        shares.update((ends[0][may_have_met] / way[may_have_met]).tolist())
     slow = are_slow(before, after)
     on_axis = [np.sum(slow & (each.imag == 0)) for each in (before, after)]
-    if np.abs(between.turns).max(initial=0) > LONGEST_TURN or on_axis[0] != on_axis[1]:
+    if longest > LONGEST_TURN or on_axis[0] != on_axis[1]:
         shares.add(0.5)
     return sorted(shares)

@@ -529,8 +529,7 @@ class _Search:
                 if extrapolate and self._extrapolate(result, cycle):
                     # nothing is to be seen before the departure has grown by a factor of e
                     leg = min(max(leg, 1 / cycle.cycle.growth_rate), LONGEST_LEG)
-                    is_linear = result.time >= self.horizon
-                    end = result.time if is_linear else (1 + BORDER) * self.horizon
+                    end = self._end_after(result.time)
             if result.time >= end:
                 grows = departs or growing(result.changes)
                 result.outcome = Outcome.GROWING if grows else Outcome.UNDECIDED
@@ -566,6 +565,11 @@ class _Search:
         result.extrapolated = True
         result.note_change(close_return(near.map, x)[0])
         return True
+
+    def _end_after(self, time: float) -> float:
+        """The time to which a motion is followed that was extrapolated up to one: somewhat beyond the
+        horizon, unless it is linear up to that."""
+        return time if time >= self.horizon else (1 + BORDER) * self.horizon
 
     def _simulate(self, result: OutcomeResult, leg: float, end: float) -> Result:
         """Simulate a leg to its end or the first separation; the segment to be described is a leg

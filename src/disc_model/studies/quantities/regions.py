@@ -79,7 +79,7 @@ def regions(
         values |= _columns_of(followed.cycle)
     elif values["outcome"] == Outcome.STEADY_SLIDING:
         values["cycle"] = "steady_sliding"
-    elif near or start.state is not None:
+    elif isinstance(start, NearCycle) or start.state is not None:
         values["cycle"] = "nearby_only"
     else:
         of_search = (*STABLE_CYCLES, "unstable_sliding")
