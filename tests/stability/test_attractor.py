@@ -195,7 +195,7 @@ def test_a_stay_is_doubled_until_it_has_settled_and_no_further(
     """From a value inside the sweep rises to the last, and falls to the first."""
     stays = {10.0: 0.1, 11.0: 0.2, 12.0: 0.4}  # 0.4 s are allowed
 
-    def settles(p: Parameters, legs: Any) -> Arrival:
+    def settles(p: Parameters, legs: Any, most: int) -> Arrival:
         done = 0.1 * 2 ** (len(legs) - 1) >= {10.0: 0.1, 11.0: 0.2, 12.0: 9.0}[p.Omega]
         return Arrival(Settling(Settled.SETTLED if done else Settled.UNDECIDED))
 

@@ -20,9 +20,9 @@ from disc_model.errors import Status
 from disc_model.parameters import Parameters
 from disc_model.stability import attractors
 from disc_model.stability.follower import Attractor, NearCycle, OutcomeResult
+from disc_model.stability.segments import Segment
 from disc_model.studies.quantity import HOMES, Range, quantity_of
 from tests.refusals import refusal
-from tests.stability.test_attractor import stretch
 
 P = Parameters(N=385, Omega=14)
 SEPARATED = {"prerun": {"parameters": {"Omega": 15.1}, "time": 70}}
@@ -352,6 +352,21 @@ SWEEPS = [
 ]
 
 
+def stretch(**changes: float) -> Segment:
+    """Of a separating motion."""
+    segment = Segment(
+        P_min=0.0,
+        P_max=1.0,
+        u_min=-0.01,
+        u_max=0.01,
+        stick_fraction=0.25,
+        slip_fraction=0.65,
+        separation_fraction=0.10,
+        separation_rate=135.0,
+    )
+    return replace(segment, **changes)
+
+
 @pytest.mark.parametrize(("rates", "onset", "offset", "said"), SWEEPS)
 def test_a_sweep_has_an_onset_and_an_end_or_says_why_not(
     rates: list[list[Any]], onset: float, offset: float, said: str, monkeypatch: pytest.MonkeyPatch
@@ -588,7 +603,7 @@ def near(*, stable: bool = False) -> NearCycle:
     return NearCycle(cycle, map_, np.zeros(0), np.zeros(0), np.eye(0))
 
 
-NO_CYCLE = SimpleNamespace(motion=CycleStatus.NO_CYCLE)
+NO_CYCLE = SimpleNamespace(motion=CycleStatus.NO_CYCLE, state=None)
 STARTS = [
     # what the search finds, method, outcome, what is said of the cycle
     (near(stable=True), "multipliers", "stick_slip", "followed"),

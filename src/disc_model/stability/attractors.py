@@ -148,10 +148,15 @@ def _cycle_reached(p: Parameters, leg: Result, most: int) -> NearCycle | None:
 
 
 def settle(
-    p: Parameters, state: State | None, stay: float, longest: float, tol: float
+    p: Parameters,
+    state: State | None,
+    stay: float,
+    longest: float,
+    tol: float,
+    most: int = sys.maxsize,
 ) -> tuple[list[Result], Arrival]:
     """Legs of the motion from a state, over a stay (s) that is doubled until it has settled, `longest` s
-    at most; and its arrival. The last leg may end early."""
+    at most; and its arrival, of cycles on one of up to `most` releases. The last leg may end early."""
     begin = 0.0 if state is None else state.time
     legs = list[Result]()
     while True:
@@ -159,7 +164,7 @@ def settle(
         legs.append(leg)
         if not leg.status.complete:
             return legs, Arrival(Settling())
-        reached = arrival(p, legs)
+        reached = arrival(p, legs, most)
         if reached.settled or 2 * stay > longest:
             return legs, reached._replace(stay=stay)
         state = leg.final_state
@@ -253,19 +258,17 @@ class Basins:
 
     def follow(self, state: State) -> OutcomeResult:
         """Outcome of the motion from a state at time 0; a new attractor is added to `known`."""
-        result = OutcomeResult(Outcome.UNDECIDED)
-        legs = list[Result]()
-        while result.attractor is None and state.time < self.horizon:
-            end = min(max(FIRST_LEG, 2 * state.time), self.horizon)
-            leg = simulate(self.p, end, tol=self.tol, initial_state=state)
-            legs.append(leg)
-            state = leg.final_state
-            result.simulated = state.time
-            if math.isnan(result.first_separation):
+        halvings = max(0, int(math.log2(self.horizon / FIRST_LEG)))
+        stay = self.horizon / 2**halvings
+        legs, reached = settle(self.p, state, stay, self.horizon, self.tol, LARGEST_PERIOD)
+        last = legs[-1]
+        result = OutcomeResult(Outcome.UNDECIDED, last.final_state.time)
+        for leg in reversed(legs):
+            if not math.isnan(leg.first_separation):
                 result.first_separation = leg.first_separation
-            if not leg.status.complete:
-                return replace(result, outcome=None, failed=leg)
-            result.attractor = self._settled_on(arrival(self.p, legs, LARGEST_PERIOD), leg)
+        if not last.status.complete:
+            return replace(result, outcome=None, failed=last)
+        result.attractor = self._settled_on(reached, last)
         if result.attractor is not None:
             result.outcome = result.attractor.kind
         return result
