@@ -302,12 +302,10 @@ def _balanced(p: Parameters) -> "_Slip | None":
     finds none. Stretching that grows with the square of a share has the effect of a load that grows
     with it."""
     rows = _on_still_surface(p)
-    model = engine_case(p).model
-    is_linear = not (model.has_stretching or model.has_moving_surface)
-    if p.k_p == 0 or (is_linear and p.contact_force != "normal"):  # it is this one, or none
+    if p.k_p == 0:  # it is this one, or none
         return _slip(p, rows)
     scale = np.sqrt(energy_weights(p))
-    loads = LOADS if model.has_stretching else 1
+    loads = LOADS if engine_case(p).model.has_stretching else 1
     for share in np.arange(1, loads + 1) / loads:
         for _ in range(MOST_ITERATIONS):
             slip = _slip(p, rows, float(share**2))
