@@ -365,3 +365,57 @@ def test_a_step_that_changes_modes_much_is_halved():
     narrow = follow_modes([p.replace(m=m) for m in masses])
     numbers = narrow[-1].numbers
     np.testing.assert_array_equal(wide[-1].numbers, numbers)
+
+
+# one pair of modes without damping, whose diameters turn at omega / l = 911.94 rad/s, and rates at
+# which the slider is as fast as the drive, from the equations of docs/model.md alone
+PAIR = Parameters(
+    N=1.0,
+    Omega=911.0,
+    disc=Disc(diameters=[2], omega=[1823.881], amplitude=[2.1491], damping_ratio=[0.0]),
+    r_0=0.1,
+    k=1e3,
+    m=1e-6,
+    mu_s=0.3,
+    mu_k=0.3,
+    k_p=2e4,
+    friction_offset=1e-3,
+)
+PLATE = Parameters(N=385, Omega=920, normalization="orthonormal", friction_offset="surface")
+
+
+def equations_of_pair(g: float, Omega: float) -> tuple[float, float]:
+    """Contact force (N), and what the slider's rate has over the drive's (rad/s)."""
+    l, w, psi, t, k = 2, 1823.881, 2.1491, -1e-3 / 0.1 * 2 * 2.1491, 1e3
+    gap = (l * g) ** 2 - w**2
+    force = PAIR.N * (1 + k * psi**2 / w**2) / (1 - k * psi**2 / gap)
+    return force, g + g * l * t * psi * force / gap / 0.1 - Omega
+
+
+@pytest.mark.parametrize(
+    ("Omega", "count"), [(911.8, 2), (911.95, 2), (912.2, 2), (912.5, 1), (912.6, 1), (913.0, 1)]
+)
+def test_all_equilibria_on_a_moving_surface_are_found(Omega: float, count: int) -> None:
+    """Near omega / l there are two; a search from the drive's rate found one or none."""
+    sliding = steady_sliding(PAIR.replace(Omega=Omega))
+    assert len(sliding.rates) == count
+    assert sliding.status == ("several" if count > 1 else "ok")
+    for rate in sliding.rates:
+        force, excess = equations_of_pair(rate, Omega)
+        assert force > 0
+        assert abs(excess) < 1e-6
+    # the one nearest to the drive's rate
+    assert sliding.rate == min(sliding.rates, key=lambda rate: abs(rate - Omega))
+    assert sliding.contact_force == pytest.approx(
+        equations_of_pair(sliding.rate, Omega)[0], rel=1e-6
+    )
+
+
+@pytest.mark.parametrize(
+    ("Omega", "rates"), [(920, [956.256]), (930, [957.553]), (950, [920.117, 963.174])]
+)
+def test_equilibria_of_the_plate_beyond_a_resonance_are_found(Omega, rates) -> None:
+    sliding = steady_sliding(PLATE.replace(Omega=Omega))
+    assert sliding.status is SlidingStatus.SEVERAL
+    for rate in rates:
+        assert np.abs(sliding.rates - rate).min() < 1e-3

@@ -12,17 +12,19 @@ move.  With C for the contact's compliance, V = N + k (w - C V - u_0). R = V and
 unless it falls with the speed); under the normal force, with beta = B / r_0, V = R (1 - mu beta) and
 H = (mu + beta) R. The spring in the plane holds H = r_0 F.
 
-Without friction on the surface and with vertical contact forces that is the equilibrium itself. Otherwise Newton's
-method starts there; a plate that stretches adds the forces of its membrane little by little.
+Where the surface moves, g is sought up to twice Omega. A plate that stretches adds the forces of its
+membrane; its equilibrium is followed from that of no load.
 """
 
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import pairwise
 from types import FunctionType, ModuleType, SimpleNamespace
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
+from scipy.optimize import brentq
 
 from disc_model.arrays import Array, ComplexArray, EqualByValue, Indices
 from disc_model.data.variables import values_text
@@ -35,9 +37,16 @@ from disc_model.errors import StatusBase, raise_faults, require
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.simulation.states import State, engine_case
 
+if TYPE_CHECKING:
+    from pandas import DataFrame
+
+RATES = np.arange(1, 101) / 50  # at which the rate g is sought, over Omega
+# distances from resonances and poles at which it is looked, too, over their rates
+BESIDE = np.concatenate([-np.geomspace(1, 1e-9, 28), np.geomspace(1e-9, 1, 28)])
 LOADS = 24  # shares of the load by which the equilibrium of a plate that stretches is followed
 MOST_ITERATIONS = 30  # of Newton's method: a few suffice, where there is an equilibrium
 SETTLED = 1e-10  # relative change at which it ends: what remains is its square
+NEARLY = 5e-4  # damping ratio below which a mode nearly grows
 
 
 def _in_python(module: ModuleType) -> Any:
@@ -58,7 +67,15 @@ class SlidingStatus(StatusBase):
     """Whether steady sliding exists; `advice` says what that means."""
 
     OK = "ok", "Steady sliding exists; its growth rate says whether it is stable."
-    NOT_FOUND = "not_found", "No equilibrium was found near that of a surface that does not move."
+    FURTHER = (
+        "further",
+        "Steady sliding exists; the plate stretches, and a further equilibrium cannot be excluded.",
+    )
+    SEVERAL = (
+        "several",
+        "Steady sliding exists; of several equilibria the one whose rate is nearest to the drive's is given.",
+    )
+    NOT_FOUND = "not_found", "No equilibrium was found up to twice the drive's rate."
     NO_CONTACT = (
         "no_contact",
         "The equilibrium would need a contact force that is not positive: lower Omega or k.",
@@ -77,7 +94,7 @@ class SlidingStatus(StatusBase):
     @property
     def exists(self) -> bool:
         """Whether there is an equilibrium, and its numbers are known."""
-        return self is SlidingStatus.OK
+        return self in (SlidingStatus.OK, SlidingStatus.FURTHER, SlidingStatus.SEVERAL)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -96,7 +113,8 @@ class SteadySliding(Summarised, EqualByValue):
     jacobian : Jacobian of the equations of slip; rows a and alpha of all modes, b and beta of the pairs, psi, f, and
         u, u' on a compliant contact
     parameters : as given to `steady_sliding`
-    rate : rad/s, rate g over the material, Omega unless friction moves the surface
+    rates : rad/s, (n,), rates g over the material of all equilibria that were found, ascending; `rate` is that of
+        this one, Omega unless friction moves the surface
     """
 
     status: SlidingStatus
@@ -111,6 +129,7 @@ class SteadySliding(Summarised, EqualByValue):
     growth_rate: float = math.nan
     jacobian: Array = field(default_factory=lambda: np.zeros((0, 0)), repr=False)
     parameters: Parameters | None = None
+    rates: Array = field(default_factory=lambda: np.zeros(0), repr=False)
     rate: float = math.nan
 
     def __repr__(self) -> str:
@@ -118,6 +137,10 @@ class SteadySliding(Summarised, EqualByValue):
             return f"SteadySliding({self.message})"
         fastest = f"growth rate {self.rate_text} at {number_text(self.frequency, 'Hz')}"
         return f"SteadySliding({self.message}, {fastest}, {self.eigenvalues.size} eigenvalues)"
+
+    def __str__(self) -> str:
+        table = self.modes
+        return f"{self!r}\n{table.to_string()}" if len(table) else repr(self)
 
     def _summary(self) -> Iterator[tuple[str, object]]:
         if self.parameters is not None:
@@ -146,6 +169,23 @@ class SteadySliding(Summarised, EqualByValue):
         return (
             float(abs(self.eigenvalues[0].imag)) / math.tau if self.eigenvalues.size else math.nan
         )
+
+    @property
+    def modes(self) -> "DataFrame":
+        """Oscillating modes that grow or nearly do, with a damping ratio below 0.0005: the fastest first.
+
+        Columns are those numbers of `SlidingModes` that each mode has one of: frequency (Hz), growth_rate
+        (1/s), damping_ratio, diameters, circles, and shares of the energy: disc, across, in_plane.
+        """
+        from pandas import DataFrame  # slow to import, as most of what follows does without
+
+        p = self.parameters
+        table = DataFrame(columns=[*TABLE])
+        if self.eigenvalues.size and p is not None:
+            found = sliding_modes(p, self)
+            table = DataFrame({name: getattr(found, name) for name in TABLE})
+        table = table[table["damping_ratio"] < NEARLY]
+        return table.sort_values("growth_rate", ascending=False, ignore_index=True)
 
     @property
     def rate_text(self) -> str:
@@ -235,22 +275,31 @@ def _equilibrium(case: Parameters) -> SteadySliding:
     raise_faults(foreign_case(case))
     if case.Omega == 0:
         return _absent(case, SlidingStatus.AT_REST)
-    found = _balanced(case)
-    if found is None:
-        return _absent(case, SlidingStatus.NOT_FOUND)
-    if not (found.force > 0 or case.contact == "bilateral"):
-        status = SlidingStatus.NO_CONTACT if case.N > 0 else SlidingStatus.NO_LOAD
-        return _absent(case, status)
+    disc = _Response(case)
+    linear = disc.equilibria()
+    every = [_slip(case, disc.rows_of(each)) for each in linear]
+    if disc.model.has_stretching:
+        every = [slip for each in every if (slip := _stretched(case, each)) is not None]
+    carried = [each for each in every if each.force > 0 or case.contact == "bilateral"]
+    if not carried:
+        if not case.N > 0:
+            return _absent(case, SlidingStatus.NO_LOAD)
+        return _absent(case, SlidingStatus.NO_CONTACT if every else SlidingStatus.NOT_FOUND)
+    found = min(carried, key=lambda each: abs(each.rate - case.Omega))
     if found.denominator <= 1e-6:
         return _absent(case, SlidingStatus.PARADOX)
     (a, alpha, b, beta), (psi, _), _ = split_rows(mode_arrays(case), found.rows)
     if case.k_p == 0:  # no friction at this speed, and no slope: both are exactly zero then
-        if found.horizontal != 0:
+        if any(each.H != 0 for each in linear):
             return _absent(case, SlidingStatus.NO_SPRING)
         psi = math.nan
+    status = SlidingStatus.FURTHER if disc.model.has_stretching else SlidingStatus.OK
+    if len(carried) > 1:
+        status = SlidingStatus.SEVERAL
+    rates = np.sort([each.rate for each in carried])
     return SteadySliding(
-        SlidingStatus.OK, "", found.force, float(psi), a, b, alpha, beta, jacobian=found.jacobian,
-        parameters=case, rate=found.rate,
+        status, "", found.force, float(psi), a, b, alpha, beta, jacobian=found.jacobian,
+        parameters=case, rates=rates, rate=found.rate,
     )  # fmt: skip
 
 
@@ -266,6 +315,8 @@ def _with_eigenvalues(sliding: SteadySliding, values: np.ndarray) -> SteadySlidi
         verdict = "stable" if growth_rate < 0 else "not stable"
     symbol = "R" if sliding.parameters.contact_force == "normal" else "P"
     message = f"steady sliding with {symbol} = {sliding.contact_force:.6g} N, {verdict}"
+    if sliding.status is SlidingStatus.SEVERAL:
+        message += f"; the nearest to the drive's rate of {len(sliding.rates)} equilibria"
     return replace(sliding, message=message, eigenvalues=eigenvalues, growth_rate=growth_rate)
 
 
@@ -274,44 +325,132 @@ def _absent(p: Parameters, status: SlidingStatus) -> SteadySliding:
     return SteadySliding(status, status.advice, parameters=p)
 
 
-# ---- The equilibrium of the disc
+# ---- The equilibrium of the disc: by the modal solve at a rate g, and a search for that rate
 
 
-@np.errstate(divide="ignore", invalid="ignore")
-def _on_still_surface(p: Parameters) -> Array:
-    """The equilibrium under vertical contact forces that travel over the disc at the drive's rate, in
-    the rows of `SteadySliding.jacobian`."""
-    modes = mode_arrays(p)
-    model = engine_case(p).model
-    compliance = contact_compliance(p)
-    turned = modes.diameters * p.Omega
-    receptance = 1 / (turned**2 - modes.omega**2 - 1j * modal_damping(p) * turned)
-    mu = float(LAWS.friction_coefficient(model, 1.0, p.Omega))
-    by_V = (modes.psi - 1j * mu * tangential_amplitudes(p)) * receptance
-    yields = float(modes.psi @ by_V.real) - compliance
-    V = (p.N - p.k * model.u_0) / (1 - p.k * yields)
-    a, b = by_V.real * V, by_V.imag * V
-    psi = mu * V / (p.r_0 * p.k_p) if p.k_p else 0.0
-    height = (yields * V, 0.0) if compliance else ()
-    disc = (a, -turned * b, b, turned * a)
-    return np.asarray(join_rows(modes, disc, (psi, p.Omega), height), dtype=float)
+class Balanced(NamedTuple):
+    """The disc in equilibrium under a contact that travels over it: rate g (rad/s), modal coordinates
+    a, b (n_modes,), vertical and horizontal force (N)."""
+
+    rate: float
+    a: Array
+    b: Array
+    V: float
+    H: float
 
 
-def _balanced(p: Parameters) -> "_Slip | None":
-    """The equilibrium that Newton's method finds from that on a surface that does not move; None if it
-    finds none. Stretching that grows with the square of a share has the effect of a load that grows
-    with it."""
-    rows = _on_still_surface(p)
-    if p.k_p == 0:  # it is this one, or none
-        return _slip(p, rows)
+class _Response:
+    """The disc's linear response to a contact that travels over it."""
+
+    def __init__(self, p: Parameters) -> None:
+        modes = mode_arrays(p)
+        self.p = p
+        self.modes = modes
+        self.model = engine_case(p).model
+        self.w2 = modes.omega**2
+        self.d = modal_damping(p)
+        self.t = tangential_amplitudes(p)
+        self.compliance = contact_compliance(p)
+        self.load = p.N - p.k * self.model.u_0
+        self.leans = modes.diameters * modes.psi / p.r_0
+        if p.contact_force != "normal":
+            self.leans = np.zeros_like(modes.psi)
+
+    def equilibria(self) -> list[Balanced]:
+        """All equilibria that are found, up to twice the drive's rate."""
+        if not (self.load and self.t.any()):
+            start = self.solve(self.p.Omega)
+            return [start] if math.isfinite(start.V) else []
+        found = list[Balanced]()
+        for low, high in pairwise(self._grid()):
+            before = self.excess(low)
+            after = self.excess(high)
+            if before == 0:
+                found.append(self.solve(low))
+            if before * after < 0:
+                rate = float(brentq(self.excess, low, high, xtol=1e-300, rtol=1e-15))
+                # at a pole it jumps from one sign to the other
+                if abs(self.excess(rate)) < min(abs(before), abs(after)):
+                    found.append(self.solve(rate))
+        return found
+
+    def excess(self, rate: float) -> float:
+        """The slider's rate over that of the drive at a rate g, rad/s."""
+        state = self.solve(rate)
+        surface = rate * float((self.modes.diameters * self.t) @ state.a)
+        return rate + surface / self.p.r_0 - self.p.Omega
+
+    def _grid(self) -> list[float]:
+        """Rates at which equilibria are sought, closer beside resonances of the disc and where the
+        contact force has a pole."""
+        pairs = self.modes.diameters > 0
+        grid = RATES * self.p.Omega
+        grid = _with_beside(grid, self.modes.omega[pairs] / self.modes.diameters[pairs])
+
+        def softness(rate: float) -> float:
+            return 1 / self.solve(rate).V
+
+        signs = np.sign([softness(rate) for rate in grid])
+        jumps = np.flatnonzero(signs[1:] * signs[:-1] < 0)
+        poles = [brentq(softness, grid[i], grid[i + 1], rtol=1e-15) for i in jumps]
+        return [*_with_beside(grid, np.array(poles)).tolist()]
+
+    @np.errstate(divide="ignore", invalid="ignore")
+    def solve(self, rate: float) -> Balanced:
+        """The equilibrium at a rate, of which there is one."""
+        turned = self.modes.diameters * rate
+        receptance = 1 / (turned**2 - self.w2 - 1j * self.d * turned)
+        by_V = self.modes.psi * receptance  # a + i b of a unit of V, and of H
+        by_H = -1j * self.t * receptance
+        k = self.p.k
+        from_V = 1 - k * (float(self.modes.psi @ by_V.real) - self.compliance)
+        from_H = -k * float(self.modes.psi @ by_H.real)
+        mu = float(LAWS.friction_coefficient(self.model, 1.0, rate))
+        share = mu  # H over V
+        if self.leans.any():
+            # with h for this share, beta = (leans b) solves the quadratic equation
+            #   h - mu = beta (1 + mu h), beta = (leans b_V + h leans b_H) load / (from_V + h from_H),
+            # whose root near mu is that of a small slope
+            slope_V = self.load * float(self.leans @ by_V.imag)
+            slope_H = self.load * float(self.leans @ by_H.imag)
+            square = from_H - mu * slope_H
+            linear = from_V - mu * from_H - slope_H - mu * slope_V
+            constant = -mu * from_V - slope_V
+            root = math.copysign(np.sqrt(linear**2 - 4 * square * constant), linear)
+            share = float(-2 * constant / (linear + root))
+        V = self.load / (from_V + share * from_H)
+        motion = (by_V + share * by_H) * V
+        return Balanced(rate, motion.real, motion.imag, V, share * V)
+
+    def rows_of(self, state: Balanced) -> Array:
+        """An equilibrium in the rows of `SteadySliding.jacobian`."""
+        p = self.p
+        turned = self.modes.diameters * state.rate
+        psi = state.H / (p.r_0 * p.k_p) if p.k_p else 0.0
+        height: tuple[float, ...] = ()
+        if self.compliance:
+            height = (float(self.modes.psi @ state.a) - self.compliance * state.V, 0.0)
+        disc = (state.a, -turned * state.b, state.b, turned * state.a)
+        return np.asarray(join_rows(self.modes, disc, (psi, p.Omega), height), dtype=float)
+
+
+def _with_beside(grid: Array, places: Array) -> Array:
+    """Rates of a grid, and others on both sides of some places within it."""
+    beside = (places[:, None] * (1 + BESIDE)).ravel()
+    return np.unique(np.append(grid, beside[(beside > grid[0]) & (beside < grid[-1])]))
+
+
+def _stretched(p: Parameters, slip: "_Slip") -> "_Slip | None":
+    """The equilibrium of a plate that stretches, followed from that of one that does not: stretching
+    that grows with the square of a share has the effect of a load that grows with it."""
     scale = np.sqrt(energy_weights(p))
-    loads = LOADS if engine_case(p).model.has_stretching else 1
-    for share in np.arange(1, loads + 1) / loads:
+    rows = slip.rows
+    for share in np.arange(1, LOADS + 1) / LOADS:
         for _ in range(MOST_ITERATIONS):
             slip = _slip(p, rows, float(share**2))
             if not np.isfinite(slip.jacobian).all():
                 return None
-            change = np.linalg.solve(slip.jacobian, slip.rates)
+            change = np.linalg.lstsq(slip.jacobian, slip.rates, rcond=None)[0]
             rows = rows - change
             if np.linalg.norm(scale * change) <= SETTLED * np.linalg.norm(scale * rows):
                 break
@@ -325,8 +464,7 @@ def _balanced(p: Parameters) -> "_Slip | None":
 
 class _Slip(NamedTuple):
     """Slip at a state in the rows of `SteadySliding.jacobian`: its rates in these, and their Jacobian;
-    the rate g over the material (rad/s), contact force (N), that force's denominator, and the horizontal
-    force (N)."""
+    the rate g over the material (rad/s), contact force (N), and that force's denominator."""
 
     rows: Array
     rates: Array
@@ -334,7 +472,6 @@ class _Slip(NamedTuple):
     rate: float
     force: float
     denominator: float
-    horizontal: float
 
 
 def _slip(p: Parameters, rows: Array, stretching: float = 1.0) -> _Slip:
@@ -385,7 +522,7 @@ def _slip(p: Parameters, rows: Array, stretching: float = 1.0) -> _Slip:
     lift = (v, acceleration)[: len(height)]
     disc = (rate_a, free_along, rate_b, free_across)
     rates = join_rows(modes, disc, (p.Omega - f, rate_f), lift)
-    first = [float(np.ravel(number)[0].real) for number in (g, force, denominator, H)]
+    first = [float(np.ravel(number)[0].real) for number in (g, force, denominator)]
     return _Slip(rows, rates.real[:, 0], rates.imag / LAWS.TINY, *first)
 
 
@@ -457,6 +594,13 @@ class SlidingModes:
     disc: Array
     forward: Array
     shapes: ComplexArray = field(repr=False)
+
+
+TABLE = (
+    *("frequency", "growth_rate", "damping_ratio", "diameters", "circles"),
+    *("disc", "across", "in_plane"),
+)
+"""Columns of the table of modes."""
 
 
 def sliding_modes(p: Parameters, sliding: SteadySliding | None = None) -> SlidingModes:
