@@ -67,7 +67,6 @@ def failure_map(
                     "verdict": errors.verdict.name.lower(),
                     "event_error": errors.event_time,
                     "longest_step": result.longest_step,
-                    "events": len(result.kinds),
                 }
             )
     return pd.DataFrame(rows)
@@ -81,7 +80,7 @@ def _case(scene: str, diameters: int) -> tuple[Problem, Answer]:
     problem = Problem(p, start, start.time + SPANS[scene])
     right = METHODS["series"].solve(problem, REFERENCE_TOL)
     times = right.times.astype(np.longdouble)
-    return problem, Answer(times, right.kinds, right.final, REFERENCE_TOL)
+    return problem, Answer(times, right.kinds, right.final)
 
 
 def map_settings(method: Method) -> Sequence[float]:

@@ -1,26 +1,20 @@
 """Figures of the benchmark: speed against accuracy, failures of methods, and costs of answers."""
 
-import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
-from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
-from matplotlib.patches import Patch
 
 from benchmarks.answers import QUESTIONS
 from benchmarks.methods import METHODS
 from disc_model.figures import looks
-from disc_model.figures.draw import PAGE, styled
+from disc_model.figures.draw import PAGE, class_map, edges, explain, panels, styled
+from disc_model.figures.looks import BLACK, Look, Options
 
-Look = dict[str, Any]
-"""Arguments of matplotlib on how something looks."""
-
-LOOKS: Mapping[str, Look] = {
+LOOKS: Mapping[str, Options] = {
     "series": {"color": looks.RED, "marker": "o"},
     "RK4": {"color": looks.BLACK, "marker": "s"},
     "RK45": {"color": looks.SKY, "marker": "v"},
@@ -41,16 +35,16 @@ TITLES = {
 }
 # shades are told apart in grey print
 VERDICTS = {
-    "converged": ("converged", "#08519C"),
-    "inaccurate": ("inaccurate (> 1 μs)", "#6BAED6"),
-    "wrong_events": ("events missed or invented", "#FDD27A"),
-    "unstable": ("unstable", "#D7402F"),
-    "gave_up": ("gave up", "#1A1A1A"),
+    "converged": Look("converged", "#08519C"),
+    "inaccurate": Look("inaccurate (> 1 μs)", "#6BAED6"),
+    "wrong_events": Look("events missed or invented", "#FDD27A"),
+    "unstable": Look("unstable", "#D7402F"),
+    "gave_up": Look("gave up", "#1A1A1A"),
 }
 """Verdicts on methods, in words, and their shades."""
 BORDERS = {"-": r"RK4: $h\,\omega_{max} = 2\sqrt{2}$", ":": "longest step = shortest phase"}
 """Lines in maps of failures, and what they mean."""
-SETTINGS = {"tol": "Tolerance", "step": "Step (s)"}
+SETTINGS = {"tol": {"long_name": "Tolerance"}, "step": {"long_name": "Step", "units": "s"}}
 WRONG_AT = 25.0
 """Place of points with wrong events on the axis of errors, s."""
 EDGE = 3.0
@@ -62,14 +56,14 @@ def overview(points: pd.DataFrame) -> Figure:
 
     Dotted: without the time in Python; hollow at the right edge: wrong events.
     """
-    figure, axes = _panels([*TITLES], columns=2, height=2.3, ylabel="Time per simulated second (s)")
+    figure, axes = _panels([*TITLES], columns=2, height=2.3)
     for ax, (scene, title) in zip(axes, TITLES.items(), strict=True):
         ax.set(xscale="log", yscale="log", title=title, xlim=(1e-18, 300.0))
-        ax.set_xlabel("Event-time error (s)")
+        ax.set(xlabel="Event-time error (s)", ylabel="Time per simulated second (s)")
         ax.axvline(EDGE, color=looks.GREY, linewidth=0.5)
         for method, line in points[points["scene"] == scene].groupby("method", sort=False):
             _draw_line(ax, str(method), line)
-    _legend(figure, axes)
+    explain(figure, axes)
     return figure
 
 
@@ -95,35 +89,23 @@ def failure_maps(cells: pd.DataFrame) -> Figure:
     step of a method is as long.
     """
     maps = [*cells.groupby(["method", "scene"], sort=False)]
-    figure, axes = _panels(maps, columns=4, height=1.5, ylabel="Real modes")
+    figure, axes = _panels(maps, columns=4, height=1.9)
     for ax, ((method, scene), part) in zip(axes, maps, strict=True):
         of_contact = ", contact" if scene == "stick_slip" else ""
         ax.set_title(f"{METHODS[method].label}{of_contact}", fontsize=7)
         _draw_map(ax, METHODS[method].setting, part)
-    present = {*cells["verdict"]}
-    handles: list[Any] = [
-        Patch(facecolor=shade, label=word)
-        for name, (word, shade) in VERDICTS.items()
-        if name in present
-    ]
-    for style, word in BORDERS.items():
-        look: Look = {"color": "black", "linestyle": style}
-        handles.append(Line2D([], [], label=word, **look))
-    figure.legend(handles=handles, loc="outside lower center", ncols=3)
+    explain(figure, axes)
     return figure
 
 
 def _draw_map(ax: Axes, setting: str, part: pd.DataFrame) -> None:
     """Draw the map of a method, with fine settings on the right."""
-    verdicts = part.pivot(index="modes", columns="setting", values="verdict")
-    shades = np.array([[to_rgb(VERDICTS[name][1]) for name in row] for row in verdicts.to_numpy()])
-    # edges are halfway between values in the logarithm
-    values = np.pad(np.log(verdicts.columns.to_numpy()), 1, "reflect", reflect_type="odd")
-    edges = np.exp(0.5 * (values[1:] + values[:-1]))
-    rows = np.arange(len(verdicts) + 1) - 0.5
-    ax.pcolormesh(edges, rows, shades)
-    ax.set(xscale="log", xlim=(edges[-1], edges[0]), xlabel=SETTINGS[setting])
-    ax.set_yticks(rows[:-1] + 0.5, [f"{count:.0f}" for count in verdicts.index])
+    plane = part.set_index(["modes", "setting"])["verdict"].to_xarray()
+    plane["modes"].attrs = {"long_name": "Real modes"}
+    plane["setting"].attrs = SETTINGS[setting]
+    class_map(ax, plane, VERDICTS)
+    ax.set(xscale="log", yticks=plane["modes"])
+    ax.invert_xaxis()
 
     facts = part.groupby("modes").first()
     borders = {}
@@ -132,9 +114,19 @@ def _draw_map(ax: Axes, setting: str, part: pd.DataFrame) -> None:
     elif part["longest_step"].notna().any():
         fine = part[part["longest_step"] <= part["shortest_phase"]]
         borders = {":": fine.groupby("modes")["setting"].max().reindex(facts.index)}
+    up, across = edges(plane["modes"]), edges(plane["setting"])
     for style, border in borders.items():
-        stairs = np.repeat(np.clip(border, edges[0], edges[-1]), 2)
-        ax.plot(stairs, np.repeat(rows, 2)[1:-1], color="black", linestyle=style, linewidth=1.4)
+        places = np.clip(border, across[0], across[-1])
+        ax.stairs(
+            places,
+            up,
+            baseline=None,
+            orientation="horizontal",
+            ls=style,
+            lw=1.4,
+            color=BLACK,
+            label=BORDERS[style],
+        )
 
 
 def answers(replies: pd.DataFrame) -> Figure:
@@ -144,50 +136,36 @@ def answers(replies: pd.DataFrame) -> Figure:
     others, exact zeros among them.
     """
     names = [name for name in QUESTIONS if name != "period"]
-    figure, axes = _panels(names, columns=3, height=2.1, ylabel="Time on one core (s)")
+    figure, axes = _panels(names, columns=2, height=2.1)
     for ax, name in zip(axes, names, strict=True):
         question = QUESTIONS[name]
         part = replies[replies["question"] == name]
         least = min(0.1 * question.enough, 0.3 * part["error"][part["error"] > 0].min())
         title = f"{question.title[0].upper()}{question.title[1:]}, error ({question.unit})"
-        ax.set(xscale="log", yscale="log", xlabel=title)
+        ax.set(xscale="log", yscale="log", xlabel=title, ylabel="Time on one core (s)")
         for line, of_line in part.groupby("line", sort=False):
             look = {"linestyle": "-", "linewidth": 0.9, "markersize": 4, **LOOKS[str(line)]}
             label = METHODS[str(line)].label if line in METHODS else "series, from the cycle itself"
             found = of_line.dropna(subset="error")
             ax.plot(found["error"].clip(lower=least), found["seconds"], label=label, **look)
             denied = of_line[of_line["error"].isna() & (of_line["verdict"] == "wrong")]
-            hollow: Look = {**look, "linestyle": "", "markerfacecolor": "white"}
+            hollow: Options = {**look, "linestyle": "", "markerfacecolor": "white"}
             hollow["transform"] = ax.get_yaxis_transform()
             ax.plot(np.full(len(denied), 0.97), denied["seconds"], **hollow)
         low, _ = ax.get_xlim()
         ax.axvspan(low, question.enough, color="#E4F1E4", zorder=0)
         ax.set_xlim(left=low)
-    _legend(figure, axes)
+    explain(figure, axes)
     return figure
 
 
-def _panels(
-    of: Sequence[Any], columns: int, height: float, ylabel: str
-) -> tuple[Figure, list[Axes]]:
+def _panels(of: Sequence[Any], columns: int, height: float) -> tuple[Figure, list[Axes]]:
     """Create as many panels as there are subjects, with the rows' height in inches."""
-    rows = math.ceil(len(of) / columns)
-    figure = Figure(figsize=(PAGE, height * rows + 0.8), layout="constrained")
-    axes = figure.subplots(rows, columns, squeeze=False)
-    for ax in axes[:, 0]:
-        ax.set_ylabel(ylabel)
-    for ax in axes.flat[len(of) :]:
-        ax.set_axis_off()
-    return figure, list(axes.flat[: len(of)])
-
-
-def _legend(figure: Figure, axes: Sequence[Axes]) -> None:
-    """Name all lines of the panels below them, each once."""
-    named: dict[str, Any] = {}
-    for ax in axes:
-        for handle, label in zip(*ax.get_legend_handles_labels(), strict=True):
-            named.setdefault(label, handle)
-    figure.legend([*named.values()], [*named], loc="outside lower center", ncols=4)
+    names = [str(i) for i in range(len(of))]
+    spare = -len(names) % columns
+    layout = np.reshape([*names, *["."] * spare], (-1, columns))
+    figure, axes = panels(layout.tolist(), PAGE, height)
+    return figure, [*axes.values()]
 
 
 FIGURES: Mapping[str, Callable[[pd.DataFrame], Figure]] = {

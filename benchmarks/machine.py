@@ -2,7 +2,7 @@
 
 import os
 import platform
-from contextlib import suppress
+import re
 from pathlib import Path
 
 import pandas as pd
@@ -13,11 +13,10 @@ from disc_model.provenance import versions
 def machine() -> str:
     """Return the processor, its number of cores and the system, in words."""
     model = platform.processor() or platform.machine()
-    with suppress(OSError):
-        for line in Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines():
-            if line.startswith("model name"):
-                model = line.partition(":")[2].strip()
-                break
+    described = Path("/proc/cpuinfo")
+    if described.exists():
+        names = re.findall(r"model name\s*: (.*)", described.read_text("utf-8"))
+        model = [*names, model][0]
     return f"{model}, {os.cpu_count()} cores, {platform.system()}"
 
 

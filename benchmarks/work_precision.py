@@ -4,6 +4,7 @@ import math
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -56,7 +57,7 @@ def work_precision(settings: Settings | None = None, *, rounds: int = 11) -> pd.
     hopeless = set()
     rows = []
     for _ in range(rounds):
-        for scene, method, value in _points(settings or declared_settings()):
+        for scene, method, value in _points(settings):
             known = times[scene, method, value]
             if _is_done(known) or (scene, method) in hopeless:
                 continue
@@ -73,24 +74,14 @@ def work_precision(settings: Settings | None = None, *, rounds: int = 11) -> pd.
     return stamped(points.reset_index())
 
 
-def declared_settings() -> Settings:
-    """Return the settings of ``rivals.toml``."""
-    return {
-        scene: {
-            name: method.settings[scene]
-            for name, method in METHODS.items()
-            if scene in method.settings
-        }
-        for scene in SCENES
-    }
-
-
-def _points(settings: Settings) -> Iterator[tuple[str, str, float]]:
+def _points(settings: Settings | None) -> Iterator[tuple[str, str, float]]:
     """Yield scene, method and setting of the points of methods that are installed."""
-    for scene, by_method in settings.items():
-        for method, values in by_method.items():
-            if not METHODS[method].absent():
-                yield from ((scene, method, value) for value in values)
+    for scene, (name, method) in product(SCENES, METHODS.items()):
+        values: Sequence[float] = method.settings.get(scene, ())
+        if settings is not None:
+            values = settings.get(scene, {}).get(name, ())
+        if not method.absent():
+            yield from ((scene, name, value) for value in values)
 
 
 def _is_done(times: Sequence[float]) -> bool:
@@ -135,7 +126,6 @@ def _measured(scene: str, name: str, value: float, *, first: bool) -> tuple[dict
         "event_error": errors.event_time,
         "state_error": errors.state,
         "python": result.glue / max(result.seconds, 1e-9),
-        "work": result.work,
         "events": len(result.kinds),
         "separations": result.kinds.count("separation"),
     }, result.outcome

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-import importlib.util
+import importlib
 import re
-import shutil
 import sys
 import tomllib
 from pathlib import Path
 
-from docutils import nodes
-from PIL import Image
 from pydantic import BaseModel
 
 import disc_model
@@ -21,6 +18,7 @@ copyright = author
 release = disc_model.__version__
 
 extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx.ext.mathjax", "numpydoc"]
+extensions += ["sphinx-mathjax-offline"]  # formulas are set without a network
 exclude_patterns = ["_build", "measurements/*"]
 root_doc = "index"
 
@@ -57,8 +55,6 @@ if "Repository" in _ADDRESSES:
     html_theme_options["source_repository"] = _ADDRESSES["Repository"]
     html_theme_options["source_branch"] = "main"
     html_theme_options["source_directory"] = "docs/"
-# formulas are set by a MathJax of the site's own: it works without a network
-mathjax_path = "mathjax/tex-chtml.js"
 
 # ---- `make linkcheck`
 linkcheck_timeout = 20
@@ -66,9 +62,6 @@ linkcheck_ignore = [r"https?://(dx\.)?doi\.org/"]  # publishers turn away what i
 
 
 # ---- extensions of Sphinx of our own
-
-WIDE = 600
-"""Pixels from which on a picture is wide; one column of a figure has 438."""
 
 
 def short_signature(app, what, name, thing, options, signature, returns):
@@ -100,30 +93,6 @@ def words_below_names(app, what, name, thing, options, lines):
     lines[:] = changed
 
 
-def mark_wide(app, doctree):
-    """Mark pictures as wide as a page, which keep a size on a phone at which they can be read."""
-    for image in doctree.findall(nodes.image):
-        file = Path(app.srcdir, image["uri"])
-        if file.suffix != ".png" or not file.is_file():
-            continue
-        with Image.open(file) as picture:
-            if picture.width > WIDE:
-                image["classes"].append("wide")
-
-
-def copy_mathjax(app, error):
-    """Put what pages load of MathJax into the finished site."""
-    if error is not None or app.builder.format != "html":
-        return
-    package = Path(importlib.util.find_spec("sphinx-mathjax-offline").origin).parent
-    source = package / "static" / "mathjax"
-    target = Path(app.outdir) / "_static" / "mathjax"
-    fonts = Path("output", "chtml", "fonts")
-    target.mkdir(parents=True, exist_ok=True)
-    shutil.copy2(source / "tex-chtml.js", target)
-    shutil.copytree(source / fonts, target / fonts, dirs_exist_ok=True)
-
-
 def write_options(app):
     """Write the page of all options of quantities, which is not stored."""
     sys.path.insert(0, str(app.srcdir))
@@ -136,5 +105,3 @@ def setup(app):
     app.connect("builder-inited", write_options)
     app.connect("autodoc-process-signature", short_signature)
     app.connect("autodoc-process-docstring", words_below_names, priority=400)  # before numpydoc
-    app.connect("doctree-read", mark_wide)
-    app.connect("build-finished", copy_mathjax)

@@ -4,7 +4,7 @@ from pathlib import Path
 from typing import Any
 
 import yaml
-from PIL import Image
+from PIL import Image, ImageOps
 
 import disc_model as dm
 from disc_model.errors import script
@@ -30,11 +30,8 @@ PAGE = 2055
 
 def shrink(source: Path, target: Path) -> Path:
     """Write a small copy of a picture, in true colour; equal ones give equal bytes."""
-    target.parent.mkdir(parents=True, exist_ok=True)
-    scale = WIDTH / PAGE
     with Image.open(source) as picture:
-        size = (round(picture.width * scale), round(picture.height * scale))
-        small = picture.convert("RGB").resize(size, Image.Resampling.LANCZOS)
+        small = ImageOps.scale(picture.convert("RGB"), WIDTH / PAGE, Image.Resampling.LANCZOS)
     small.save(target, optimize=True)
     return target
 

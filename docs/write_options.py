@@ -1,9 +1,9 @@
 """The page of all options of quantities, from the functions that check them: made with the site."""
 
-import re
 from collections.abc import Iterable, Mapping
 from typing import Any
 
+from numpydoc.docscrape import NumpyDocString
 from pydantic_core import PydanticUndefined
 
 from disc_model.studies.quantity import HOMES, Quantity, quantity_of
@@ -50,10 +50,9 @@ def _rows(quantity: Quantity) -> Iterable[list[str]]:
 
 
 def _meanings(docstring: str) -> Mapping[str, str]:
-    """What each option is, by its entry in the section of parameters."""
-    section = docstring.partition("Parameters\n")[2].partition("\n\n")[0]
-    entries = re.findall(r"^ {4}(\w+) : (.*(?:\n {8}.*)*)", section, re.MULTILINE)
-    return {name: " ".join(text.split()) for name, text in entries}
+    """What each option is, by its entry in the section of parameters, which begins where numpydoc has a type."""
+    entries = NumpyDocString(docstring)["Parameters"]
+    return {entry.name: " ".join([entry.type, *entry.desc]) for entry in entries}
 
 
 def _unit(parts: list[Any]) -> str:

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from benchmarks.methods.integrators import MethodResult, Problem
 
 Scene = Literal["stick_slip", "separating", "many_modes", "rigid"]
-SCENES: tuple[str, ...] = get_args(Scene)
+SCENES: tuple[Scene, ...] = get_args(Scene)
 """Names of the benchmark's scenes, see `benchmarks.scenes`."""
 DECADES = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11)
 

@@ -10,7 +10,7 @@ import ctypes
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 from functools import cache
-from typing import Any, NamedTuple
+from typing import Any
 
 import numba
 import numpy as np
@@ -28,7 +28,6 @@ CHECKED_STEPS = 5_000
 # constants of SUNDIALS
 FAMILIES = {"Adams": 1, "BDF": 2}
 NORMAL = 1
-ONE_STEP = 2
 REACHED = 1
 ROOT_FOUND = 2
 TOO_MUCH_WORK = -1
@@ -43,15 +42,6 @@ CREATING = (
 
 HEAD = 3
 """Number of entries before the scalars in the callbacks' data: phase, direction, modes."""
-
-
-class Solver(NamedTuple):
-    """CVODE for one run."""
-
-    memory: Any
-    """What functions of CVODE take."""
-    vector: Any
-    """The vector of SUNDIALS over the state."""
 
 
 def solve_by_cvode(problem: Problem, value: float, budget: float, family: str) -> MethodResult:
@@ -70,46 +60,34 @@ def solve_by_cvode(problem: Problem, value: float, budget: float, family: str) -
     state = np.zeros(4 * physics.n + 4)
     constants = np.concatenate([[0.0, 0.0, physics.n], physics.c, physics.modes.ravel()])
     time = ctypes.c_double()
-    evaluations = ctypes.c_long()
     roots = (ctypes.c_int * 3)()
     falling = (ctypes.c_int * 3)(-1, -1, -1)
     call = _library()
-    switches = Pointer(_callbacks().switches.address)
-    how = ONE_STEP if problem.watched else NORMAL
+    switches = Pointer(_callbacks()[1].address)
 
     def advance(phase: int, direction: int, t: float, y: Array, t_end: float) -> Ended:
         state[:] = y
         constants[:2] = (phase, direction)
         time.value = t
-        call.CVodeReInit(solver.memory, ctypes.c_double(t), solver.vector)
-        call.CVodeRootInit(solver.memory, ENDS[phase], switches)
-        call.CVodeSetRootDirection(solver.memory, falling)
-        call.CVodeSetStopTime(solver.memory, ctypes.c_double(t_end))
+        call.CVodeReInit(memory, ctypes.c_double(t), vector)
+        call.CVodeRootInit(memory, ENDS[phase], switches)
+        call.CVodeSetRootDirection(memory, falling)
+        call.CVodeSetStopTime(memory, ctypes.c_double(t_end))
 
-        times = [t]
-        states = [y.copy()]
         flag = 0
         while flag in (0, TOO_MUCH_WORK):
             meter.check()
-            flag = call.CVode(
-                solver.memory, ctypes.c_double(t_end), solver.vector, ctypes.byref(time), how
-            )
-            times.append(time.value)
-            states.append(state.copy())
-        if problem.watched:
-            meter.steps(np.array(times), np.array(states))
-        call.CVodeGetNumRhsEvals(solver.memory, ctypes.byref(evaluations))
-        meter.work += evaluations.value
+            flag = call.CVode(memory, ctypes.c_double(t_end), vector, ctypes.byref(time), NORMAL)
 
         if flag < 0:
-            raise GaveUp(RunStatus.FAILED, f"CVODE returned {flag}")
+            raise GaveUp(RunStatus.FAILED)
         if flag == REACHED:
             return None, time.value, state
-        call.CVodeGetRootInfo(solver.memory, roots)
+        call.CVodeGetRootInfo(memory, roots)
         cause = next(i for i, is_root in enumerate(roots) if is_root)
         return cause, time.value, state
 
-    with _solver(family, state, value, scale, constants) as solver:
+    with _solver(family, state, value, scale, constants) as (memory, vector):
         return run_phases(advance, meter)
 
 
@@ -124,17 +102,9 @@ def _library() -> Any:
     return library
 
 
-class Callbacks(NamedTuple):
-    """Compiled functions that CVODE calls."""
-
-    rate: Any
-    switches: Any
-    jacobian: Any
-
-
 @cache
-def _callbacks() -> Callbacks:
-    """Compile right-hand side, event functions and Jacobian."""
+def _callbacks() -> tuple[Any, Any, Any]:
+    """Compile what CVODE calls: right-hand side, event functions and Jacobian."""
     # a vector or dense matrix of SUNDIALS begins with a pointer to its content, whose second word
     # is the data pointer
     owner = types.CPointer(types.CPointer(types.CPointer(types.float64)))
@@ -171,12 +141,12 @@ def _callbacks() -> Callbacks:
         kernels.jacobian(modes, c, phase, direction, carray(y[0][1], size), by_columns.T)
         return 0
 
-    return Callbacks(rate, switches, jacobian)
+    return rate, switches, jacobian
 
 
 @contextmanager
-def _solver(family: str, y: Array, tol: float, atol: Array, constants: Array) -> Iterator[Solver]:
-    """Create CVODE for a state, and free it in the end.
+def _solver(family: str, y: Array, tol: float, atol: Array, constants: Array) -> Iterator[Any]:
+    """Create CVODE for a state, as its memory and its vector over the state, and free it in the end.
 
     Parameters
     ----------
@@ -186,7 +156,7 @@ def _solver(family: str, y: Array, tol: float, atol: Array, constants: Array) ->
     constants : data of the callbacks
     """
     call = _library()
-    callbacks = _callbacks()
+    rate, _, jacobian = _callbacks()
     size = len(y)
     with ExitStack() as cleanup:
         context = Pointer()
@@ -207,7 +177,7 @@ def _solver(family: str, y: Array, tol: float, atol: Array, constants: Array) ->
         least = vector_of(atol)
         vector = vector_of(y)
         memory = Pointer(call.CVodeCreate(FAMILIES[family], context))
-        call.CVodeInit(memory, Pointer(callbacks.rate.address), ctypes.c_double(0.0), vector)
+        call.CVodeInit(memory, Pointer(rate.address), ctypes.c_double(0.0), vector)
         call.CVodeSVtolerances(memory, ctypes.c_double(tol), least)
         call.CVodeSetUserData(memory, constants.ctypes.data_as(Pointer))
         call.CVodeSetMaxNumSteps(memory, ctypes.c_long(CHECKED_STEPS))
@@ -218,6 +188,6 @@ def _solver(family: str, y: Array, tol: float, atol: Array, constants: Array) ->
             matrix = own(call.SUNDenseMatrix, call.SUNMatDestroy, size, size, context)
             linear = own(call.SUNLinSol_Dense, call.SUNLinSolFree, vector, matrix, context)
             call.CVodeSetLinearSolver(memory, linear, matrix)
-            call.CVodeSetJacFn(memory, Pointer(callbacks.jacobian.address))
+            call.CVodeSetJacFn(memory, Pointer(jacobian.address))
         cleanup.callback(call.CVodeFree, ctypes.byref(memory))
-        yield Solver(memory, vector)
+        yield memory, vector

@@ -7,7 +7,6 @@ ends before.
 from __future__ import annotations
 
 import time as clock
-from collections.abc import Sequence
 from dataclasses import replace
 from functools import lru_cache
 from typing import Any, NamedTuple
@@ -52,16 +51,7 @@ def solve_by_heyoka(problem: Problem, value: float, budget: float, mode: str = "
     at_end = int(hy.taylor_outcome.time_limit)
     no_more = int(hy.taylor_outcome.step_limit)
     prepared = _prepared(problem, meter.physics, value, mode == "compact")
-    path: list[tuple[float, Array]] = []
     inside = 0.0  # s spent in compiled code
-
-    def note(integrator: Any) -> bool:
-        path.append((float(integrator.time), integrator.state.copy()))
-        return True
-
-    options: dict[str, Any] = {"max_steps": CHECKED_STEPS}
-    if problem.watched:
-        options["callback"] = note  # at every step, which takes longer than some steps
 
     def advance(phase: int, direction: int, t: float, y: Array, t_end: float) -> Ended:
         nonlocal inside
@@ -71,13 +61,10 @@ def solve_by_heyoka(problem: Problem, value: float, budget: float, mode: str = "
         state[:] = y[:size]
         if direction:
             integrator.pars[2] = direction
-        path.clear()
 
         began = clock.perf_counter()
         while True:
-            outcome, _, _, steps, _, _ = propagate(t_end, **options)
-            meter.work += steps
-            stop = int(outcome)
+            stop = int(propagate(t_end, max_steps=CHECKED_STEPS)[0])
             if stop != no_more:
                 break
             meter.check()
@@ -87,13 +74,7 @@ def solve_by_heyoka(problem: Problem, value: float, budget: float, mode: str = "
         if stop != at_end:
             cause = skipped - stop - 1
             if not skipped <= cause < ENDS[phase]:
-                raise GaveUp(RunStatus.FAILED, str(outcome))
-        if problem.watched:
-            note(integrator)
-            states = np.tile(y, (len(path) + 1, 1))
-            states[1:, :size] = [state for _, state in path]
-            times = np.array([t, *(time for time, _ in path)])
-            meter.steps(times, states)
+                raise GaveUp(RunStatus.FAILED)
         y[:size] = state
         return cause, integrator.time, y
 
@@ -156,60 +137,9 @@ def _integrators(p: Parameters, tol: float, compact: bool) -> list[Any]:
 
 # ---- The equations
 
-Terms = tuple[Any, Any]
-"""Factors and variables, whose products are summed."""
-
-
-class Disc(NamedTuple):
-    """The modes of the disc as variables of heyoka, a list of each."""
-
-    a: list[Any]
-    b: list[Any]
-    alpha: list[Any]
-    beta: list[Any]
-
-    def times(self, factor: Any) -> Disc:
-        """Return the products of all variables with a factor."""
-        products = []
-        for each in self:
-            products.append([factor * x for x in each])
-        return Disc(*products)
-
-
-def _disc(n: int) -> Disc:
-    """Return the variables of a number of modes."""
-    import heyoka as hy
-
-    lists = []
-    for letter in "abpq":
-        lists.append([hy.make_vars(f"{letter}{i}") for i in range(n)])
-    return Disc(*lists)
-
-
-def _total(*terms: Terms) -> Any:
-    """Return the sum of products of factors and variables, without those that vanish."""
-    import heyoka as hy
-
-    used = []
-    for factors, variables in terms:
-        for factor, variable in zip(factors, variables, strict=True):
-            if factor:
-                used.append(float(factor) * variable)
-    return hy.sum(used) if used else hy.expression(0.0)
-
-
-def _each(*terms: Terms) -> list[Any]:
-    """Return such a sum for each mode."""
-    factors, _ = terms[0]
-    rows = []
-    for i in range(len(factors)):
-        of_mode = [(c[i : i + 1], x[i : i + 1]) for c, x in terms]
-        rows.append(_total(*of_mode))
-    return rows
-
 
 def system(physics: Physics, phase: str) -> tuple[list[Any], list[Any]]:
-    """Return the equations of a phase as heyoka expressions.
+    """Return the equations of a phase as heyoka expressions; what is multiplied by zero vanishes.
 
     Parameters at run time are N - k u_0, Omega and, in slip, its direction.
 
@@ -224,31 +154,43 @@ def system(physics: Physics, phase: str) -> tuple[list[Any], list[Any]]:
 
     p = physics.p
     load, drive, sign = (hy.par[i] for i in range(3))
-    disc = _disc(physics.n)
+    a, b, alpha, beta = (
+        np.array([hy.make_vars(f"{letter}{i}") for i in range(physics.n)]) for letter in "abpq"
+    )
     psi, f, u, v = hy.make_vars("psi", "f", "u", "v")
-    turning = disc.times(f)
     sticks = phase == "stick"
     touches = phase != "separation"
     l = 0.0 * physics.l if sticks else physics.l
+    psi_rate = drive if sticks else drive - f
 
-    F = _total(((p.k_p, p.c_p, 0.0 if sticks else -p.c_p), (psi, drive, f)))
+    F = p.k_p * psi + p.c_p * psi_rate
     P = hy.expression(0.0)
     if touches:
-        P = _contact_force(physics, l, disc, turning, f, F)
+        P = _contact_force(physics, l, (a, b, alpha, beta), f, F)
     f_rate = hy.expression(0.0)
     if not sticks:
         f_rate = F / p.m
     if phase == "slip":
         f_rate = f_rate - sign * (p.mu_k / (p.m * p.r_0)) * P
 
-    rates = _disc_rates(physics, l, disc, turning, P, touches)
-    rates += [drive if sticks else drive - f, f_rate]
-    rows = list(zip([*disc.a, *disc.b, *disc.alpha, *disc.beta, psi, f], rates, strict=True))
+    # a mode without nodal diameters has no sine
+    paired = 1.0 * (physics.l > 0)
+    damping = -physics.damping
+    stiffness = -physics.stiffness
+    rates = [
+        *_each(hy, alpha, l * (f * b)),
+        *_each(hy, paired * beta, -l * (f * a)),
+        *_each(hy, damping * alpha, stiffness * a, -physics.shape * P, l * (f * beta)),
+        *_each(hy, damping * paired * beta, stiffness * paired * b, -l * (f * alpha)),
+        psi_rate,
+        f_rate,
+    ]
+    rows = list(zip([*a, *b, *alpha, *beta, psi, f], rates, strict=True))
 
     if not touches:
         rows.append((u, v))
-        rows.append((v, _total(((-1.0 / p.m, -p.k / p.m, -p.c / p.m), (load, u, v)))))
-        return rows, [SHIFT + u - _total((physics.shape, disc.a))]
+        rows.append((v, hy.sum([-load / p.m, -p.k / p.m * u, -p.c / p.m * v])))
+        return rows, [SHIFT + u - hy.sum([*(physics.shape * a)])]
     if sticks:
         return rows, [p.mu_s * P - p.r_0 * F, p.mu_s * P + p.r_0 * F]
     if p.contact == "bilateral":
@@ -256,59 +198,32 @@ def system(physics: Physics, phase: str) -> tuple[list[Any], list[Any]]:
     return rows, [P, sign * f]
 
 
-def _contact_force(physics: Physics, l: Array, disc: Disc, turning: Disc, f: Any, F: Any) -> Any:
+def _each(hy: Any, *terms: Any) -> list[Any]:
+    """Return the sum of terms for each mode."""
+    return [hy.sum([*of_mode]) for of_mode in zip(*terms, strict=True)]
+
+
+def _contact_force(physics: Physics, l: Array, modes: Any, f: Any, F: Any) -> Any:
     """Return the contact force as an expression.
 
     Parameters
     ----------
     physics : constants of the case
     l : nodal diameters, zero in stick
-    disc, turning : the modes, and these times f
+    modes : variables a, b, alpha and beta, an array of each
     f, F : speed of the slider, and the force on it in the plane
     """
     import heyoka as hy
 
     p = physics.p
-    load = hy.par[0]
-    sign = hy.par[2]
+    a, b, alpha, beta = modes
     below = 1.0 + p.m * physics.compliance
     by = physics.shape / below
-    P = _total(
-        ([1.0 / below], [load]),
-        ((p.k - p.m * physics.stiffness) * by, disc.a),
-        ((p.c - p.m * physics.damping) * by, disc.alpha),
-        (2.0 * p.m * l * by, turning.beta),
-        (p.c * l * by, turning.b),
-    )
+    held = (p.k - p.m * physics.stiffness) * by * a + (p.c - p.m * physics.damping) * by * alpha
+    turned = 2.0 * p.m * l * by * (f * beta) + p.c * l * by * (f * b)
+    P = hy.sum([hy.par[0] / below, *held, *turned])
     if l.any():
-        tilt = _total((l * by, disc.b))
-        P = P - f * _total((p.m * l**2 * by, turning.a)) + tilt * F
-        P = P / (1.0 + sign * (p.mu_k / p.r_0 * tilt))
+        tilt = hy.sum([*(l * by * b)])
+        P = P - f * hy.sum([*(p.m * l**2 * by * (f * a))]) + tilt * F
+        P = P / (1.0 + hy.par[2] * (p.mu_k / p.r_0 * tilt))
     return P
-
-
-def _disc_rates(
-    physics: Physics, l: Array, disc: Disc, turning: Disc, P: Any, touches: bool
-) -> list[Any]:
-    """Return the rates of the modes as expressions, those of a, b, alpha and beta in turn.
-
-    Parameters
-    ----------
-    physics : constants of the case
-    l : nodal diameters, zero in stick
-    disc, turning : the modes, and these times f
-    P : contact force
-    touches : whether there is contact
-    """
-    paired = 1.0 * (physics.l > 0)
-    ones = np.ones(physics.n)
-    damping = -physics.damping
-    stiffness = -physics.stiffness
-    forces: Sequence[Any] = [P] * physics.n
-    load = -physics.shape * touches
-    return [
-        *_each((ones, disc.alpha), (l, turning.b)),
-        *_each((paired, disc.beta), (-l, turning.a)),
-        *_each((damping, disc.alpha), (stiffness, disc.a), (load, forces), (l, turning.beta)),
-        *_each((damping * paired, disc.beta), (stiffness * paired, disc.b), (-l, turning.alpha)),
-    ]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from functools import partial
 from typing import Any
 
@@ -18,14 +17,6 @@ LEAST_RTOL = 2.3e-14
 """Smallest relative tolerance that scipy accepts."""
 STIFF = ("LSODA", "Radau")
 """Algorithms that use a Jacobian."""
-
-
-def _end_of_phase(function: Callable[[float, Array], float]) -> Any:
-    """Return an event in scipy's form: it ends the integration where a function falls to zero."""
-    event: Any = partial(function)
-    event.terminal = True
-    event.direction = -1
-    return event
 
 
 def solve_by_scipy(problem: Problem, value: float, budget: float, algorithm: str) -> MethodResult:
@@ -64,7 +55,10 @@ def solve_by_scipy(problem: Problem, value: float, budget: float, algorithm: str
         options: dict[str, Any] = {"max_step": problem.max_step}
         if algorithm in STIFF:
             options = {"jac": jacobian}
-        events = [_end_of_phase(partial(margin, index)) for index in range(ENDS[phase])]
+        events: list[Any] = [partial(margin, index) for index in range(ENDS[phase])]
+        for event in events:
+            event.terminal = True
+            event.direction = -1
         with np.errstate(over="ignore", invalid="ignore"):
             solution = solve_ivp(
                 meter.counted(rate),
@@ -76,9 +70,10 @@ def solve_by_scipy(problem: Problem, value: float, budget: float, algorithm: str
                 events=events,
                 **options,
             )
-        meter.steps(solution.t, solution.y.T)
+        steps = np.diff(solution.t)
+        meter.longest_step = float(np.fmax.reduce(steps, initial=meter.longest_step))
         if solution.status == -1:
-            raise GaveUp(RunStatus.FAILED, solution.message)
+            raise GaveUp(RunStatus.FAILED)
         cause = next((i for i, times in enumerate(solution.t_events) if len(times)), None)
         return cause, float(solution.t[-1]), solution.y[:, -1].copy()
 

@@ -13,9 +13,9 @@ import time as clock
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from itertools import count
 
 import numpy as np
-from scipy.interpolate import CubicHermiteSpline
 
 from benchmarks.methods.kernels import Array, Physics
 from disc_model.parameters import Parameters
@@ -50,7 +50,6 @@ class Problem:
     start : state at the start
     t_end : end, s, absolute and greater than ``start.time``
     stop : whether to end at the first separation
-    watched : whether the range of the disc is wanted, which costs some methods time
     max_step : longest step in s of methods that would miss events with longer ones
     """
 
@@ -58,7 +57,6 @@ class Problem:
     start: State
     t_end: float
     stop: bool = False
-    watched: bool = False
     max_step: float = math.inf
 
     @property
@@ -77,11 +75,8 @@ class MethodResult:
     kinds : of events, words of `disc_model.data.variables.EVENT_KINDS`
     final : state at t_end, or where the method stopped
     seconds : processor time of the integration
-    work : number of right-hand sides, or of steps for methods that work with series
     outcome : how the run ended
-    message : the reason, if it failed
     longest_step : s, nan if it is not known
-    heights : least and greatest w under the slider, m, nan if it was not watched
     glue : seconds spent in Python between compiled phases, nan where that was not measured
     """
 
@@ -89,18 +84,16 @@ class MethodResult:
     kinds: tuple[str, ...]
     final: State
     seconds: float
-    work: int
     outcome: RunStatus
-    message: str = ""
     longest_step: float = math.nan
-    heights: tuple[float, float] = (math.nan, math.nan)
     glue: float = math.nan
 
 
 class GaveUp(Exception):
-    """A run cannot go on; the arguments are its status and the reason."""
+    """A run cannot go on; the argument is its status."""
 
 
+@dataclass
 class Meter:
     """The constants of a run, and what it comes to.
 
@@ -108,26 +101,21 @@ class Meter:
     ----------
     problem, physics : what is integrated, and its constants
     budget : seconds
-    work : number of right-hand sides, or of steps
     longest_step : s
-    low, high : least and greatest w under the slider, m
-    outcome, message : how the run ended, and the reason
+    outcome : how the run ended
     began, seconds, wall : begin of the integration, and its processor and wall time, s
     """
 
-    def __init__(self, problem: Problem, budget: float) -> None:
-        self.problem = problem
-        self.physics = Physics(problem.parameters)
-        self.budget = budget
-        self.work = 0
-        self.longest_step = math.nan
-        self.low = math.nan
-        self.high = math.nan
-        self.outcome = RunStatus.FINISHED
-        self.message = ""
-        self.began = 0.0
-        self.seconds = 0.0
-        self.wall = 0.0
+    problem: Problem
+    budget: float
+    longest_step: float = math.nan
+    outcome: RunStatus = RunStatus.FINISHED
+    began: float = 0.0
+    seconds: float = 0.0
+    wall: float = 0.0
+
+    def __post_init__(self) -> None:
+        self.physics = Physics(self.problem.parameters)
 
     @contextmanager
     def running(self) -> Iterator[None]:
@@ -137,7 +125,7 @@ class Meter:
         try:
             yield
         except GaveUp as reason:
-            self.outcome, self.message = reason.args
+            (self.outcome,) = reason.args
         self.seconds = clock.thread_time() - self.began
         self.wall = clock.perf_counter() - wall
 
@@ -157,57 +145,22 @@ class Meter:
             kinds=tuple(kinds),
             final=final,
             seconds=self.seconds,
-            work=self.work,
             outcome=self.outcome,
-            message=self.message,
             longest_step=self.longest_step,
-            heights=(self.low, self.high),
         )
-
-    def steps(self, times: Array, states: Array) -> None:
-        """Record the steps of one phase, and the range of w over them if it is wanted.
-
-        Parameters
-        ----------
-        times : s, shape (k,)
-        states : vectors at these times, shape (k, size)
-        """
-        if len(times) > 1:
-            longest = np.max(np.diff(times))
-            self.longest_step = float(np.fmax(self.longest_step, longest))
-        if self.problem.watched:
-            w = self._heights(times, states)
-            self.low = float(np.fmin.reduce(w, initial=self.low))
-            self.high = float(np.fmax.reduce(w, initial=self.high))
-
-    def _heights(self, times: Array, states: Array) -> Array:
-        """Return w under the slider at steps and where it is extreme between them, m.
-
-        Between steps w is a cubic.
-        """
-        q = self.physics
-        w = states[:, q.a] @ q.shape
-        slope = states[:, q.b] @ q.slope
-        rate = states[:, q.alpha] @ q.shape + states[:, q.f] * slope
-        forward = np.diff(times, append=math.inf) > 0.0
-        steps = np.flatnonzero(forward & np.isfinite(w + rate))
-        if len(steps) < 2:
-            return w
-        cubics = CubicHermiteSpline(times[steps], w[steps], rate[steps])
-        extremes = cubics.derivative().roots(extrapolate=False)
-        return np.concatenate([w, cubics(extremes)])
 
     def check(self) -> None:
         """Raise `GaveUp` if the budget is used up."""
         if clock.thread_time() - self.began > self.budget:
-            raise GaveUp(RunStatus.TOO_SLOW, f"not finished after {self.budget:g} s")
+            raise GaveUp(RunStatus.TOO_SLOW)
 
     def counted(self, function: Callable[[float, Array], Array]) -> Callable[[float, Array], Array]:
-        """Return a right-hand side that counts its calls and sometimes looks at the clock."""
+        """Return a right-hand side that sometimes looks at the clock."""
+
+        calls = count()
 
         def wrapped(t: float, y: Array) -> Array:
-            self.work += 1
-            if self.work & CHECKED_CALLS == 0:
+            if next(calls) & CHECKED_CALLS == CHECKED_CALLS:
                 self.check()
             return function(t, y)
 

@@ -6,7 +6,7 @@ separation only. All is in one file because of numba's cache, which sees no othe
 """
 
 # mypy: disable-error-code="no-untyped-def"
-from typing import Any, NamedTuple
+from typing import Any
 
 import numba
 import numpy as np
@@ -429,42 +429,6 @@ def rk4_step(modes, c, phase, direction, y, first, h, out, k, z):
         out[j] = y[j] + h / 6.0 * (first[j] + 2.0 * k[0, j] + 2.0 * k[1, j] + k[2, j])
 
 
-class Step(NamedTuple):
-    """A step within which there may be an event.
-
-    Attributes
-    ----------
-    y : state at its begin, (size of the state,)
-    first : rate of that state, (size of the state,)
-    length : s
-    at_root : whether a phase begins with it, perhaps at a root of an event function
-    """
-
-    y: Array
-    first: Array
-    length: float
-    at_root: bool
-
-
-class Work(NamedTuple):
-    """Work arrays of `rk4_run`, whose values nothing reads after the call that fills them.
-
-    Attributes
-    ----------
-    k : rates within a Runge-Kutta step, (3, size of the state)
-    z : states within it, (size of the state,)
-    probe : state at the place of a dip, (size of the state,)
-    trial : event functions there or at the end of a secant, (3,)
-    lows : event functions at the last place before the event, (3,)
-    """
-
-    k: Array
-    z: Array
-    probe: Array
-    trial: Array
-    lows: Array
-
-
 @_kernel
 def _dip(before, current, after):
     """Return the place of a minimum in the last of two equal steps, in steps.
@@ -498,65 +462,59 @@ def _first_dip(before, current, after, count):
 
 
 @_kernel
-def _search_dips(modes, c, phase, direction, step, before, current, after, count, work):
+def _search_dips(modes, c, phase, direction, step, before, current, after, count):
     """Look for an event within a step over which no event function changes its sign.
 
-    step : see `Step`
+    step : state and rate at its begin, its length, s, and whether a phase begins with it
     before, current, after : event functions a step before, at the begin and at the end; the last
         become those at the place that is returned
     count : number of event functions
-    work : see `Work`
 
-    Returns the index of the function of an event, or -1, the place in the step by which it has
-    fallen below zero, s, and the number of Runge-Kutta steps taken.
+    Returns the index of the function of an event, or -1, and the place in the step by which it has
+    fallen below zero, s.
     """
     y, first, length, _ = step
-    probe = work.probe
-    trial = work.trial
-    steps = 0
+    k, z, probe = np.empty((3, len(y))), np.empty(len(y)), np.empty(len(y))
+    trial = np.empty(3)
     for index in range(count):
         share = _dip(before[index], current[index], after[index])
         if share > 0.0:
             place = share * length
-            rk4_step(modes, c, phase, direction, y, first, place, probe, work.k, work.z)
-            steps += 1
+            rk4_step(modes, c, phase, direction, y, first, place, probe, k, z)
             switch_values(modes, c, phase, direction, probe, trial)
             cause = violated(trial, count)
             if cause >= 0:
                 after[:] = trial
-                return cause, place, steps
-    return -1, length, steps
+                return cause, place
+    return -1, length
 
 
 @_kernel
-def _locate(modes, c, phase, direction, step, cause, high, current, after, count, end, work):
+def _locate(modes, c, phase, direction, step, cause, high, current, after, count, end):
     """Locate the first event within a step by secants, an end that stays twice counting half.
 
-    step : see `Step`
+    step : as in `_search_dips`; where a phase begins, there may be a root of an event function
     cause, high : index of the function of an event, and a place by which it has fallen below zero
     current, after : event functions at the begin and there
     count : number of event functions
     end : array to fill with the state at the event
-    work : see `Work`
 
-    Returns the index of the event's function, its place, s, and the number of Runge-Kutta steps.
+    Returns the index of the event's function and its place, s.
     """
     y, first, length, at_root = step
-    lows = work.lows
-    trial = work.trial
+    k, z = np.empty((3, len(y))), np.empty(len(y))
+    trial = np.empty(3)
     low = 0.0
     at_low = current[cause]
     at_high = after[cause]
     side = 0
-    steps = 0
     middle = 0.0
-    lows[:] = current
+    lows = current.copy()
     for _ in range(ROOT_TRIES):
         middle = low + (high - low) * at_low / (at_low - at_high)
         if not low < middle < high or (low == 0.0 and at_root):
             middle = 0.5 * (low + high)
-        rk4_step(modes, c, phase, direction, y, first, middle, end, work.k, work.z)
-        steps += 1
+        rk4_step(modes, c, phase, direction, y, first, middle, end, k, z)
         switch_values(modes, c, phase, direction, end, trial)
         other = violated(trial, count)
         if other >= 0:
@@ -580,7 +538,7 @@ def _locate(modes, c, phase, direction, step, cause, high, current, after, count
             lows[:] = trial
         if moved < ROOT_FOUND * length or trial[cause] == 0.0:
             break
-    return cause, middle, steps
+    return cause, middle
 
 
 @_kernel
@@ -607,12 +565,12 @@ def rk4_run(modes, c, phase, direction, y, limits, track):
 
     y : state, which is changed in place
     limits : end and step, s, greatest number of steps, whether to stop at the first separation
-    track : arrays to fill: times and kinds of events, and (2,) the least and greatest w at step ends
+    track : arrays to fill: times and kinds of events
 
-    Returns how it ended, local time, phase, direction, and the numbers of events and steps.
+    Returns how it ended, local time, phase, direction, and the number of events.
     """
     t_end, h, max_steps, stop = limits
-    times, kinds, heights = track
+    times, kinds = track
     size = len(y)
     n = modes.shape[1]
     final = y
@@ -626,7 +584,6 @@ def rk4_run(modes, c, phase, direction, y, limits, track):
     after = np.empty(3)
     k = np.empty((3, size))
     z = np.empty(size)
-    work = Work(k, z, np.empty(size), np.empty(3), np.empty(3))
     new = np.empty(2, np.int64)
 
     why = FINISHED
@@ -657,8 +614,6 @@ def rk4_run(modes, c, phase, direction, y, limits, track):
         if not abs(w) < HUGE:
             why = NON_FINITE
             break
-        heights[0] = min(heights[0], w)
-        heights[1] = max(heights[1], w)
 
         # whether there is an event in it
         conditions = _margins(c, phase, direction, end, n, P, F, w, after)
@@ -666,11 +621,10 @@ def rk4_run(modes, c, phase, direction, y, limits, track):
         high = length
         # a call with many arrays in each step would take a third of its time
         if cause < 0 < count and _first_dip(before, current, after, conditions) >= 0:
-            step = Step(y, first, length, count == 0)
-            cause, high, further = _search_dips(
-                modes, c, phase, direction, step, before, current, after, conditions, work
+            step = (y, first, length, count == 0)
+            cause, high = _search_dips(
+                modes, c, phase, direction, step, before, current, after, conditions
             )
-            steps += further
         if cause < 0:
             y, end = end, y
             first, following_rate = following_rate, first
@@ -680,11 +634,10 @@ def rk4_run(modes, c, phase, direction, y, limits, track):
             continue
 
         # the event
-        step = Step(y, first, length, count == 0)
-        cause, place, further = _locate(
-            modes, c, phase, direction, step, cause, high, current, after, conditions, end, work
+        step = (y, first, length, count == 0)
+        cause, place = _locate(
+            modes, c, phase, direction, step, cause, high, current, after, conditions, end
         )
-        steps += further
         y[:] = end
         local += place
         origin = local
@@ -698,4 +651,4 @@ def rk4_run(modes, c, phase, direction, y, limits, track):
         if stop and phase == SEPARATION:
             break
     final[:] = y
-    return why, local, phase, direction, events, steps
+    return why, local, phase, direction, events

@@ -18,7 +18,6 @@ INSTANT = 1e-12
 """Time between events that counts as none, s."""
 CHECKED_EVENTS = 15
 """Events between two looks at the clock, as a mask of bits: a look takes as long as some phases."""
-NOT_FINITE = "the state is no longer finite"
 
 ENDS = (3, 2, 1)
 """Number of functions of the state that end a phase, by its number in `kernels`.
@@ -66,7 +65,7 @@ def run_phases(advance: Advance, meter: Meter) -> MethodResult:
                 break
             phase, direction, added = kernels.switch(physics.modes, physics.c, phase, cause, y, new)
             if added < 0:
-                raise GaveUp(RunStatus.NON_FINITE, NOT_FINITE)
+                raise GaveUp(RunStatus.NON_FINITE)
 
             at_once = len(times) > 0 and t - times[-1] < INSTANT
             crowd = crowd + 1 if at_once else 0
@@ -76,9 +75,9 @@ def run_phases(advance: Advance, meter: Meter) -> MethodResult:
             if problem.stop and phase == kernels.SEPARATION:
                 break
             if crowd > CROWD:
-                raise GaveUp(RunStatus.STALLED, f"more than {CROWD} events at one instant")
+                raise GaveUp(RunStatus.STALLED)
         if not math.isfinite(y.sum()):
-            raise GaveUp(RunStatus.NON_FINITE, NOT_FINITE)
+            raise GaveUp(RunStatus.NON_FINITE)
     end = problem.start.time + t
     return meter.result(times, kinds, physics.unpack(end, PHASES[phase], direction, y))
 

@@ -12,13 +12,9 @@ from benchmarks.methods.integrators import Meter, MethodResult, Problem, RunStat
 from disc_model.data.variables import EVENT_KINDS, PHASES
 from disc_model.errors import Status
 from disc_model.simulation.api import Execution, simulate
-from disc_model.simulation.case import Window
 
 SERIES_STEPS_PER_SECOND = 300_000
 """Steps of the engine per second of budget: it stops by steps, not by the clock."""
-WATCH_RATE = 2e4
-"""Sampling rate, 1/s: after a separation the disc vibrates by 0.04 rad a sample, and its range is
-accurate to 2e-4."""
 LONGEST_BUDGET = 1e6
 """Seconds from which on a budget counts as unlimited."""
 FAILURES = {Status.STEP_LIMIT: RunStatus.TOO_SLOW, Status.PARADOX: RunStatus.FAILED}
@@ -41,17 +37,10 @@ def solve_by_series(problem: Problem, value: float, budget: float) -> MethodResu
     value : tolerance
     budget : seconds
     """
-    windows = {}
-    if problem.watched:  # in one bin over the whole run
-        samples = max(2, round(WATCH_RATE * problem.span))
-        windows["whole"] = Window(
-            start=problem.start.time, stop=problem.t_end, rate=WATCH_RATE, envelope=samples
-        )
     began = clock.thread_time()
     result = simulate(
         problem.parameters,
         problem.t_end,
-        windows,
         tol=value,
         initial_state=problem.start,
         stop_at="first_separation" if problem.stop else None,
@@ -63,10 +52,6 @@ def solve_by_series(problem: Problem, value: float, budget: float) -> MethodResu
     outcome = RunStatus.FINISHED
     if not status.complete:
         outcome = FAILURES.get(status) or RunStatus(status.value)
-    heights = (math.nan, math.nan)
-    seen = result.samples.get("whole", {})
-    if len(seen.get("w_min", ())):  # of a bin that a run ends before, there is nothing
-        heights = (float(seen["w_min"].min()), float(seen["w_max"].max()))
     return MethodResult(
         times=result.events["time"].to_numpy(),
         kinds=tuple(result.events["kind"]),
@@ -74,10 +59,7 @@ def solve_by_series(problem: Problem, value: float, budget: float) -> MethodResu
         # the time of the steps; of a long run, which other processes may have interrupted, that of
         # the call
         seconds=min(result.statistics["wall_time"], call),
-        work=int(result.statistics["steps"]),
         outcome=outcome,
-        message=result.message,
-        heights=heights,
     )
 
 
@@ -110,17 +92,14 @@ def solve_by_rk4(problem: Problem, value: float, budget: float) -> MethodResult:
     y = physics.pack(start)
     times = np.empty(MAX_EVENTS)
     kinds = np.empty(MAX_EVENTS, np.int64)
-    heights = np.array([math.inf, -math.inf])
-    track = (times, kinds, heights)
+    track = (times, kinds)
     case = (physics.modes, physics.c, PHASES.index(start.phase), start.direction)
     kernels.rk4_run(*case, y.copy(), (0.0, value, 1, problem.stop), track)  # compiles
 
     limits = (problem.span, value, _steps(budget, RK4_STEPS_PER_SECOND), problem.stop)
     with meter.running():
-        why, t, phase, direction, events, steps = kernels.rk4_run(*case, y, limits, track)
+        why, t, phase, direction, events = kernels.rk4_run(*case, y, limits, track)
     meter.outcome = RK4_OUTCOMES[why]
-    meter.work = 4 * steps
     meter.longest_step = value
-    meter.low, meter.high = heights.tolist()
     final = physics.unpack(start.time + t, PHASES[phase], direction, y)
     return meter.result(times[:events], [EVENT_KINDS[kind] for kind in kinds[:events]], final)

@@ -8,6 +8,7 @@ from docs.measurements import load, stick_slip, wheel
 from docs.measurements.comparison import Comparison
 from docs.measurements.signals import LEAST_FALLS
 
+from disc_model.data.dataset import markdown_table
 from disc_model.errors import script
 
 TABLES = Path("results/measurements.md")
@@ -15,10 +16,7 @@ TABLES = Path("results/measurements.md")
 
 def table(head: Iterable[str], rows: Iterable[Iterable[str]]) -> str:
     """Return a table in Markdown."""
-    columns = list(head)
-    lines = ["| " + " | ".join(columns) + " |", "| --- " * len(columns) + "|"]
-    lines += ["| " + " | ".join(row) + " |" for row in rows]
-    return "\n".join(lines)
+    return "\n".join(markdown_table(head, rows))
 
 
 def digits(value: float) -> str:
@@ -82,33 +80,23 @@ def thresholds() -> str:
 
 
 def shapes() -> str:
-    """Return B."""
+    """Return B: root mean square differences of measured shapes on the rim from the model's."""
     rows = []
-    for each in wheel.shapes():
-        cells = []
-        for error in (each.real, each.complex):
-            cells.append(crossed(f"{error:.3f}", error < wheel.SHAPES))
-        rows.append([each.mode, *cells, f"{each.other:.2f}"])
+    for diameters, row in wheel.peaks().iterrows():
+        errors = [row["error_real"], row["error_complex"]]
+        cells = [crossed(f"{error:.3f}", error < wheel.SHAPES) for error in errors]
+        rows.append([f"{diameters} nodal diameters", *cells, f"{row['error_other']:.2f}"])
     return table(("mode", "real parts", "complex", "another number, real parts"), rows)
 
 
 def frequencies() -> str:
-    """Return C, and ratios for other Poisson's ratios and by squares of numbers of diameters."""
+    """Return C, and ratios by squares of numbers of diameters."""
     rows = []
-    for each in wheel.frequencies():
+    for each, ratio in zip(wheel.frequencies(), wheel.squares(), strict=True):
         values = [f"{each.measured:.0f}", f"{each.predicted:.0f}", f"{each.ratio:.3f}"]
-        rows.append([each.what, *values, verdict(each)])
-    for nu in wheel.POISSON:
-        for row, each in zip(rows, wheel.frequencies(nu), strict=True):
-            cell = "stated"
-            if each.what.startswith("wheel"):
-                cell = crossed(f"{each.ratio:.3f}", each.agrees)
-            row.append(cell)
-    for row, ratio in zip(rows, wheel.squares(), strict=True):
-        row.append(f"{ratio:.3f}")
-    head = ["mode", "measured, Hz", "predicted, Hz", "ratio", "agrees"]
-    head += [f"ratio, ν = {nu:g}" for nu in wheel.POISSON]
-    return table([*head, "ratio by l²"], rows)
+        rows.append([each.what, *values, verdict(each), f"{ratio:.3f}"])
+    head = ("mode", "measured, Hz", "predicted, Hz", "ratio", "agrees", "ratio by l²")
+    return table(head, rows)
 
 
 def damping() -> str:

@@ -39,17 +39,6 @@ def measured(run: tuple[int, int], least_fall: float = FALL) -> pd.DataFrame:
     return table[chosen]
 
 
-def coefficients(table: pd.DataFrame) -> tuple[np.ndarray, np.ndarray]:
-    """Return static and kinetic friction of each slip.
-
-    A block with constant kinetic friction swings about the force mu_k m g. Its force before a slip is
-    mu_s m g at a low speed only, as in the calibrating run; at others it is larger.
-    """
-    static = table["before"].to_numpy()
-    kinetic = (table["before"] + table["after"]).to_numpy() / 2
-    return static, kinetic
-
-
 def block(run: tuple[int, int], mu_s: float, mu_k: float) -> dm.Parameters:
     """Return the case of a run: a block on a rigid disc, pressed on by the stated weight."""
     stiffness, speed = run
@@ -112,9 +101,14 @@ def name(run: tuple[int, int]) -> str:
 
 
 def friction(run: tuple[int, int] = CALIBRATION, least_fall: float = FALL) -> tuple[float, float]:
-    """Return the medians of static and kinetic friction in a run, as `coefficients` find them."""
-    static, kinetic = coefficients(measured(run, least_fall))
-    return float(np.median(static)), float(np.median(kinetic))
+    """Return the medians of static and kinetic friction in the slips of a run.
+
+    A block with constant kinetic friction swings about the force mu_k m g. Its force before a slip is
+    mu_s m g at a low speed only, as in the calibrating run; at others it is larger.
+    """
+    table = measured(run, least_fall)
+    kinetic = (table["before"] + table["after"]) / 2
+    return float(table["before"].median()), float(kinetic.median())
 
 
 def medians(least_fall: float = FALL) -> dict[str, list[Comparison]]:

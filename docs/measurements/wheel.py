@@ -1,7 +1,6 @@
 """A wheel and a bronze disc as discs of the model: shapes, frequencies, damping (B, C, D)."""
 
 import math
-from typing import NamedTuple
 
 import pandas as pd
 from docs.measurements.comparison import Comparison, read, within
@@ -26,69 +25,26 @@ PLATES = {
 more nodal diameters by less than a millionth. The ratios of frequencies depend on nu alone, which is
 stated for the bronze disc and assumed for the wheel; E, rho and b of the wheel, which are not known,
 and its thickness only set their scale."""
-POISSON = (0.25, 0.35)
-"""Other Poisson's ratios for which the wheel is computed, which was not planned."""
 
 
-class Shape(NamedTuple):
-    """Errors of a mode's shape on the rim.
-
-    Parameters
-    ----------
-    mode : numbers of nodal diameters in words
-    real : of the real parts of the amplitudes read at the peak
-    complex : of the complex amplitudes read there
-    other : least error of the real parts with another number of diameters
-    """
-
-    mode: str
-    real: float
-    complex: float
-    other: float
-
-
-def peaks(amplitudes: str) -> pd.DataFrame:
-    """Return what was found of the wheel's planned modes, by numbers of nodal diameters.
-
-    Parameters
-    ----------
-    amplitudes : "read" at the peak, "1 fitted" or "2 fitted"
-    """
+def peaks() -> pd.DataFrame:
+    """Return what was read at the wheel's planned peaks, by numbers of nodal diameters; B is in its
+    columns of errors."""
     table = read("wheel.csv")
     planned = table["peak"].str.isdigit()
-    return table[planned & (table["amplitudes"] == amplitudes)].set_index("diameters")
-
-
-def shapes() -> list[Shape]:
-    """Return B: root mean square differences of measured shapes on the rim from the model's."""
-    found = []
-    for diameters, row in peaks("read").iterrows():
-        errors = Shape(
-            mode=f"{diameters} nodal diameters",
-            real=row["error_real"],
-            complex=row["error_complex"],
-            other=row["error_other"],
-        )
-        found.append(errors)
-    return found
+    return table[planned & (table["amplitudes"] == "read")].set_index("diameters")
 
 
 def bodies() -> dict[str, dict[int, float]]:
     """Return the measured natural frequencies of both bodies, Hz, by nodal diameters."""
-    return {"wheel": peaks("read")["frequency_Hz"].to_dict(), "bronze disc": BRONZE}
+    return {"wheel": peaks()["frequency_Hz"].to_dict(), "bronze disc": BRONZE}
 
 
-def frequencies(nu: float = PLATES["wheel"]["nu"]) -> list[Comparison]:
-    """Return C: natural frequencies of uniform plates with a thickness fitted to the lowest.
-
-    Parameters
-    ----------
-    nu : Poisson's ratio that is assumed for the wheel; that of the bronze disc is stated
-    """
+def frequencies() -> list[Comparison]:
+    """Return C: natural frequencies of uniform plates with a thickness fitted to the lowest."""
     found = []
     for body, measured in bodies().items():
-        ratio = nu if body == "wheel" else PLATES[body]["nu"]
-        p = plate(body, measured[2], max(measured), ratio)
+        p = plate(body, measured[2], max(measured))
         modes = dm.plate_modes(p).set_index("diameters")["omega"]
         for diameters in sorted(measured)[1:]:
             value = measured[diameters]
@@ -109,10 +65,9 @@ def squares() -> list[float]:
     return found
 
 
-def plate(body: str, lowest: float, diameters: int, nu: float) -> dm.Parameters:
+def plate(body: str, lowest: float, diameters: int) -> dm.Parameters:
     """Return a uniform plate whose mode with two nodal diameters has a given frequency (Hz)."""
-    known = dict(PLATES[body])
-    known["nu"] = nu
+    known = PLATES[body]
     start = dm.Parameters(
         N=0,
         Omega=0,
@@ -135,9 +90,9 @@ def fitted(
 
 def damping() -> list[Comparison]:
     """Return D: damping ratios of the wheel by each of the two laws, set by the lowest mode."""
-    table = peaks("read")[["frequency_Hz", "damping_ratio"]]
+    table = peaks()[["frequency_Hz", "damping_ratio"]]
     lowest = table.loc[2]
-    start = plate("wheel", lowest["frequency_Hz"], 5, PLATES["wheel"]["nu"]).replace(D_star=1.0)
+    start = plate("wheel", lowest["frequency_Hz"], 5).replace(D_star=1.0)
     damped = fitted(start, "D_star", "damping_ratio_2_0", lowest["damping_ratio"], 1e-5)
     found = []
     for diameters, row in table.iterrows():

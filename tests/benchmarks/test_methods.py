@@ -10,7 +10,6 @@ from benchmarks.failure_maps import failure_map
 from benchmarks.methods import METHODS
 from benchmarks.methods.integrators import Problem, RunStatus
 from benchmarks.scenes import answer, problem
-from disc_model import Parameters
 from tests import needs
 from tests.contact_laws import ALL_LAWS
 from tests.references.printed import MOTIONS, P, Printed, lively
@@ -60,13 +59,11 @@ def test_every_method_finds_all_switches(
 @pytest.mark.parametrize("name", SHORT)
 @pytest.mark.parametrize(("phase", "direction"), MOTIONS)
 def test_a_short_motion_is_the_printed_one(name: str, phase: str, direction: int) -> None:
-    motion = Problem(P, lively(phase, direction, P), 1e-4, watched=True)
+    motion = Problem(P, lively(phase, direction, P), 1e-4)
     result = METHODS[name].solve(motion, FINE[METHODS[name].setting])
     assert (result.outcome, result.kinds) == (RunStatus.FINISHED, ())
     printed = Printed(P, motion.start)
     end = printed.at(motion.t_end)
-    heights = np.sort([printed.at(0.0)["w"], end["w"]])  # the range of RK4 begins a step later
-    assert result.heights == pytest.approx(heights, rel=0, abs=0.022 * np.ptp(heights))
     for quantity in STATE:
         size = max(np.max(np.abs(end[quantity])), 1e-12)
         found = getattr(result.final, quantity)
@@ -130,14 +127,6 @@ def test_verdicts_on_results(changes: dict, verdict: str) -> None:
         kinds=changes.get("kinds", right.kinds),
         final=right.final.replace(alpha=right.final.alpha + changes.get("shaken", 0.0)),
         seconds=0.1,
-        work=1,
         outcome=changes.get("outcome", RunStatus.FINISHED),
     )
     assert scenes.errors(problem("stick_slip"), right, result).verdict.name == verdict
-
-
-def test_the_start_by_hand_is_the_engines() -> None:
-    from disc_model.simulation.states import static_start
-
-    p = Parameters(N=385.0, Omega=15.1)
-    assert scenes.Physics(p).distance(scenes.static_start(p), static_start(p)) < 1e-12

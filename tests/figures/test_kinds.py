@@ -61,9 +61,9 @@ def test_another_name_is_no_kind(name: object) -> None:
 
 
 def test_a_kind_of_the_paper_is_found_beside_the_package() -> None:
-    kind = kind_of("paper.light_slider")
+    kind = kind_of("paper.one_separation")
     assert issubclass(kind, CasePlot)
-    assert kind.model_fields["kind"].default == "paper.light_slider"
+    assert kind.model_fields["kind"].default == "paper.one_separation"
 
 
 def test_a_study_is_checked_without_what_draws() -> None:

@@ -241,9 +241,9 @@ def neutral() -> Picture:
 
 
 def periods() -> Picture:
-    [fold] = [point for point in branch().special if point.kind == "fold"]
+    fold = branch().special_points.loc[1]
     shown = (
-        Shown(0, "x", SPEED, [*branch().values, fold.value], "rad/s"),
+        Shown(0, "x", SPEED, [*branch().values, fold.Omega], "rad/s"),
         Shown(0, "y", "Period of the cycle", [*branch().period, fold.period], "s"),
     )
     return Picture(functools.partial(branch().plot, "period"), shown)
@@ -383,10 +383,10 @@ def test_a_branch_is_thick_where_it_is_stable_up_to_its_fold() -> None:
 
 
 def test_a_special_point_is_marked_in_the_units_of_both_axes() -> None:
-    [fold] = [point for point in branch().special if point.kind == "fold"]
+    fold = branch().special_points.loc[1]
     ax = branch().plot("period", units={"Omega": "rpm"})
     [mark] = [drawn for drawn in ax.lines if drawn.get_label() == "fold"]
-    assert mark.get_xdata() == pytest.approx([fold.value * 30 / np.pi], rel=1e-12)
+    assert mark.get_xdata() == pytest.approx([fold.Omega * 30 / np.pi], rel=1e-12)
     assert mark.get_ydata() == pytest.approx([1e3 * fold.period], rel=1e-12)
 
 

@@ -11,7 +11,7 @@ import pytest
 ROOT = Path(__file__).parents[2]
 SCRIPTS = sorted(
     [
-        *ROOT.glob("workflow/scripts/*.py"),
+        *ROOT.glob("workflow/schemas/*.py"),
         *ROOT.glob("docs/*.py"),
         *ROOT.glob("docs/measurements/*.py"),
     ]

@@ -5,16 +5,8 @@ from collections.abc import Sequence
 import numpy as np
 import pytest
 
-from disc_model.disc.plate import modal_damping, mode_arrays, modes_at_point
 from disc_model.parameters import Parameters
-from workflow.paper.energy import (
-    Powers,
-    angles_round,
-    at_range,
-    damping_by_diameters,
-    in_the_end,
-    power_history,
-)
+from workflow.paper.energy import Powers, at_range, in_the_end, power_history
 from workflow.paper.measures import Absent
 
 pytestmark = pytest.mark.compiled
@@ -55,17 +47,15 @@ def test_in_the_end_impacts_take_what_damping_does_not() -> None:
 
 def test_a_growing_motion_is_met_where_its_range_has_a_width() -> None:
     """Its growth within an instant is small."""
-    found, end = at_range(GROWS, 30.0, 8e-3)
-    assert 10 < end < 30
+    history = power_history(GROWS, 30.0)
+    found = at_range(GROWS, 30.0, 8e-3, history)
     # the mean of instants within 5 %, on both sides of the width
     assert found.width == pytest.approx(8e-3, rel=0.02)
     # what is supplied is damped or gained, as 2000 samples an instant tell to some per cent
     assert found.supplied == pytest.approx(found.damped + found.gained, rel=0.05)
     assert found.gained > found.damped > 0
-    # the same runs, whether or not the whole history is known
-    assert at_range(GROWS, 30.0, 8e-3, power_history(GROWS, 30.0)) == (found, end)
     with pytest.raises(Absent, match=r"maintained contact comes to [\d.]+ mm only"):
-        at_range(GROWS, 5.0, 0.1)
+        at_range(GROWS, 30.0, 0.1, history)
 
 
 def numbered(*numbers: float) -> list[Powers]:
@@ -80,14 +70,3 @@ def test_the_end_is_the_last_quarter_of_the_stages(
     numbers: tuple[float, ...], mean_of_last: float
 ) -> None:
     assert in_the_end(numbered(*numbers)) == numbered(mean_of_last)[0]
-
-
-def test_damping_belongs_to_the_diameters_of_the_wave_that_moves() -> None:
-    """A wave of three diameters, whose velocity is 0.2 m/s at r_0, at rest in time."""
-    theta = angles_round(GROWS)
-    samples = [{"w_point_velocity": np.full(5, 0.2 * np.cos(3 * angle))} for angle in theta]
-    taken = damping_by_diameters(GROWS, theta, samples)
-    of_wave = np.flatnonzero(mode_arrays(GROWS).diameters == 3)[0]
-    psi = modes_at_point(GROWS).psi[of_wave]
-    expected = modal_damping(GROWS)[of_wave] * (0.2 / psi) ** 2
-    assert taken == pytest.approx([0, 0, 0, expected, 0], abs=1e-12 * expected)

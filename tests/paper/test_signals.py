@@ -53,9 +53,9 @@ def test_what_stands_on_the_skirt_of_a_line_is_no_evidence() -> None:
 
 def test_points_count_as_one_within_a_hundredth_of_the_range_along_every_axis() -> None:
     square = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 10.0], [1.0, 10.0]])
-    assert distinct_points(np.zeros((0, 2))) == 0
-    assert distinct_points(np.vstack([square, np.add(square, [0.009, 0.09])])) == 4
-    assert distinct_points(np.vstack([square, np.add(square, [0.0, 0.12])])) == 8
-    assert distinct_points(square, extent=np.array([200.0, 20.0])) == 2
+    assert distinct_points(np.zeros((0, 2)), 0.01) == 0
+    assert distinct_points(np.vstack([square, np.add(square, [0.009, 0.09])]), 0.01) == 4
+    assert distinct_points(np.vstack([square, np.add(square, [0.0, 0.12])]), 0.01) == 8
+    assert distinct_points(square, 1.5) == 1
     constant = np.column_stack([np.full(4, 3.0) + 1e-15 * np.arange(4), [0.0, 0, 1, 1]])
-    assert distinct_points(constant) == 2
+    assert distinct_points(constant, 0.01) == 2

@@ -82,35 +82,6 @@ def test_the_phase_of_a_release_is_its_time_since_a_loss_of_contact_over_their_i
     assert releases_of(run_of(sorted(apart[:2] + released))) is None
 
 
-# a record of four releases and eight separations, which nearly repeats after two
-INTERVALS = np.array([1.0, 2.0, 1.0, 2.0 + 1e-7] * 2)
-NEARLY_OF_TWO = record(INTERVALS, np.full(8, 2))
-LOCK_OF_FOUR = locking.Lock(4, 8, 6.0, 0.0)
-
-
-@pytest.mark.parametrize(
-    ("releases", "separations", "expected"),
-    [
-        (4, 8, LOCK_OF_FOUR),
-        (4, 7, None),  # another cycle than that of the motion
-        (2, 8, locking.Lock(2, 8, 3.0, pytest.approx(1e-7))),  # type: ignore[arg-type]
-    ],
-)
-def test_the_lock_of_a_cycle_has_its_shortest_period(
-    releases: int, separations: int, expected: locking.Lock | None, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    counts = SimpleNamespace(releases=releases, separations=separations)
-    orbit = SimpleNamespace(counts=counts, period=3.0)
-    release = SimpleNamespace(reached=True, x=np.zeros(2))
-    map_ = SimpleNamespace(next_release=lambda state: release)
-    monkeypatch.setattr(locking, "ReturnMap", lambda p, patient: map_)
-    monkeypatch.setattr(locking, "newton", lambda *_, **__: orbit)
-    monkeypatch.setattr(locking, "run_through_once", lambda map_, orbit: orbit)
-    state: Any = None
-    found = locking.locked_cycle(CASE, state, LOCK_OF_FOUR, NEARLY_OF_TWO)
-    assert (found and found[1]) == expected
-
-
 # ---- The motion at 200 N
 
 

@@ -1,8 +1,6 @@
 """The return map: its section, its derivatives, Newton on it."""
 
 import math
-import signal
-import time
 from collections.abc import Callable
 from dataclasses import replace
 
@@ -10,8 +8,6 @@ import numpy as np
 import pytest
 
 from disc_model import Parameters, floquet, simulate
-from disc_model.engine import transitions
-from disc_model.stability import return_map
 from disc_model.stability.cycle import bifurcation_type, cycle_of
 from disc_model.stability.return_map import PARAMETERS, RETURNED, Counts, Orbit, ReturnMap, newton
 from tests.contact_laws import ALL_LAWS, COMPILES, COUPLE, FALLING, LAWS
@@ -182,58 +178,6 @@ def test_a_slider_that_is_pulled_loose_at_once_is_not_on_the_section() -> None:
     barely = p.replace(c_p=0.999 * limit / p.Omega)
     expected = 0.001 * limit / (p.k_p * p.Omega)
     assert ReturnMap(barely).first_release.time == pytest.approx(expected, rel=1e-9)
-
-
-def test_an_orbit_in_pieces_is_the_same_orbit(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Between pieces Ctrl-C is answered: kernels cannot be interrupted, and a mass of 1e12 kg kept
-    them busy for minutes."""
-    map_ = ReturnMap(P.replace(c=0.2))
-    middle = simulate(map_.parameters, 0.003).final_state
-
-    def orbits() -> tuple[Orbit, Orbit, np.ndarray]:
-        orbit = map_.evaluate(map_.static, releases=3)
-        bare = map_.evaluate(map_.static, releases=3, tangent=False)
-        return orbit, bare, map_.next_release(middle).x
-
-    whole, *ends = orbits()
-    monkeypatch.setattr(return_map, "WORK_PER_PIECE", 3)
-    again, *ends_again = orbits()
-    assert again.counts == whole.counts
-    assert again.period == pytest.approx(whole.period, rel=1e-13)
-    assert again.stick_time == pytest.approx(whole.stick_time, rel=1e-11)
-    # shorter steps; the map is accurate to 1e-12
-    exact = {"rtol": 0, "atol": 1e-11 * map_.deflection}
-    np.testing.assert_allclose(ends_again[0].end, ends[0].end, **exact)
-    np.testing.assert_allclose(ends_again[1], ends[1], **exact)
-    np.testing.assert_allclose(again.end, whole.end, **exact)
-    np.testing.assert_allclose(again.jacobian, whole.jacobian, rtol=0, atol=1e-9)
-    # the limit of time is that of the whole orbit
-    slides = ReturnMap(P.replace(c_p=1.0, Omega=9.0, N=2.0))
-    assert slides.first_release.outcome == transitions.TIME_OVER
-    assert slides.first_release.time == pytest.approx(slides.longest, rel=1e-9)
-
-
-@pytest.mark.compiled
-def test_a_very_heavy_slider_leaves_floquet_open_to_interruption() -> None:
-    """A kernel of minutes answered Ctrl-C only when it was done."""
-
-    class Interrupted(Exception):
-        """Raised by the alarm."""
-
-    def interrupt(*_: object) -> None:
-        raise Interrupted
-
-    floquet(P)  # compiles
-    before = signal.signal(signal.SIGALRM, interrupt)
-    signal.setitimer(signal.ITIMER_REAL, 0.2)
-    begin = time.monotonic()
-    try:
-        with pytest.raises(Interrupted):
-            floquet(P.replace(m=1e12))
-    finally:
-        signal.setitimer(signal.ITIMER_REAL, 0)
-        signal.signal(signal.SIGALRM, before)
-    assert time.monotonic() - begin < 20  # a piece takes 0.2 s, or seconds on a busy machine
 
 
 @pytest.mark.compiled

@@ -125,10 +125,10 @@ def test_a_branch_passes_a_grazing_at_which_the_map_is_continuous() -> None:
     late = settled(p, 300.0, settled(p.replace(Omega=15.3), 100.0))
     branch = continue_cycle(p, "Omega", (9.0, 12.5), guess=late, direction=-1)
     assert branch.ended == "bound"
-    [grazing] = [each for each in branch.special if each.kind == "grazing"]
-    assert np.all(branch.separations[: grazing.after + 1] == 1)
-    assert not branch.separations[grazing.after + 1 :].any()
+    [after] = branch.special_after[branch.special_kind == "grazing"].tolist()
+    assert np.all(branch.separations[: after + 1] == 1)
+    assert not branch.separations[after + 1 :].any()
     # simulated some steps beside it, one cycle loses contact, and the other keeps it
-    for i, separates in ((grazing.after - 3, True), (grazing.after + 4, False)):
+    for i, separates in ((after - 3, True), (after + 4, False)):
         run = simulate(branch.case_at(i), branch.period[i], initial_state=branch.state(i))
         assert (run.statistics["n_separations"] > 0) == separates

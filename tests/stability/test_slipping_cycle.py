@@ -89,7 +89,7 @@ def test_a_cycle_is_found_from_a_state_near_it() -> None:
 
 
 def test_the_branch_of_a_block_ends_at_its_hopf_point_and_where_stick_slip_ends() -> None:
-    branch = dm.continue_cycle(RIG, "Omega", (1.0, 3.0), kind="slipping", values=[1.8])
+    branch = dm.continue_cycle(RIG, "Omega", (1.0, 3.0), kind="slipping")
     first, last = branch.special_points.to_dict("records")
     hopf = block.hopf_speed(RIG) / RIG.r_0
     # the smallest cycle has an amplitude of 1e-4, of which the speed depends on the square
@@ -104,8 +104,8 @@ def test_the_branch_of_a_block_ends_at_its_hopf_point_and_where_stick_slip_ends(
     assert np.all(branch.growth_rate > 0)
     assert not branch.stick_fraction.any()
 
-    there = int(np.flatnonzero(branch.values == 1.8)[0])
-    own = dm.floquet(RIG.replace(Omega=1.8), kind="slipping")
+    there = int(np.argmin(np.abs(branch.values - 1.8)))
+    own = dm.floquet(branch.case_at(there), kind="slipping")
     assert branch.period[there] == pytest.approx(own.period, rel=1e-11)
     assert branch.state(there).psi == pytest.approx(own.state.psi, rel=1e-9)
     marks = [line.get_label() for line in branch.plot("period").lines]
@@ -114,13 +114,13 @@ def test_the_branch_of_a_block_ends_at_its_hopf_point_and_where_stick_slip_ends(
 
 def test_the_branch_of_a_disc_ends_where_steady_sliding_loses_stability() -> None:
     branch = dm.continue_cycle(DISC, "Omega", (2.0, 3.6), kind="slipping")
-    first = branch.special[0]
-    assert first.kind == "hopf"
-    values = dm.steady_sliding(first.case).eigenvalues
-    slider = values[np.argmin(np.abs(values - 1j * math.tau / first.period))]
+    first = branch.special_points.iloc[0]
+    assert first["kind"] == "hopf"
+    values = dm.steady_sliding(DISC.replace(Omega=first["Omega"])).eigenvalues
+    slider = values[np.argmin(np.abs(values - 1j * math.tau / first["period"]))]
     # relative to the rate itself, by the square of the smallest amplitude
     assert abs(slider.real) < 1e-8 * slider.imag
-    assert slider.imag == pytest.approx(math.tau / first.period, rel=1e-7)
+    assert slider.imag == pytest.approx(math.tau / first["period"], rel=1e-7)
 
 
 @pytest.mark.parametrize(

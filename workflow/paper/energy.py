@@ -1,6 +1,5 @@
 """The energy of the transverse motion: what the slope supplies, and what damping and impacts take."""
 
-import math
 from collections.abc import Mapping, Sequence
 from itertools import pairwise
 from typing import Any, NamedTuple
@@ -79,7 +78,7 @@ def powers(p: Parameters, u_0: float, theta: Array, samples: Sequence[Mapping[An
     psi = _by_mode(p, modes_at_point(p).psi)
     modal_speed = _modal(p, theta, samples, "w_point_velocity")
 
-    under_slider = _waves(p.Omega * time - drive, p.n_diameters)
+    under_slider = waves(p.Omega * time - drive, p.n_diameters)
     material = np.sum(psi * modal_speed * under_slider, axis=0)
     power = force * (velocity - material)
 
@@ -89,7 +88,7 @@ def powers(p: Parameters, u_0: float, theta: Array, samples: Sequence[Mapping[An
     energy = np.sum(modal_speed**2 + modal_force**2, axis=0)
     energy += p.m * velocity**2 + p.k * height**2 + 2 * p.N * height
 
-    of_modes = _damping(p, modal_speed).sum()
+    of_modes = np.mean(_by_mode(p, modal_damping(p)) * modal_speed**2, axis=1).sum()
     duration = float(time[-1] - time[0])
     return Powers(
         width=float(np.ptp(u)),
@@ -98,28 +97,6 @@ def powers(p: Parameters, u_0: float, theta: Array, samples: Sequence[Mapping[An
         damped=float(of_modes + p.c * np.mean(velocity**2)),
         gained=float(energy[-1] - energy[0]) / 2 / duration,
     )
-
-
-def damping_by_diameters(
-    p: Parameters, theta: Array, samples: Sequence[Mapping[Any, Any]]
-) -> Array:
-    """Return mean powers in W that the damping of the disc takes, by the modes' nodal diameters.
-
-    Parameters
-    ----------
-    p : the case
-    theta : angles at which the disc was sampled, rad
-    samples : variables over time by name, at each of these angles
-    """
-    return _damping(p, _modal(p, theta, samples, "w_point_velocity"))
-
-
-def _damping(p: Parameters, modal_speed: Array) -> Array:
-    """Return these powers from the rates of modal coordinates, shape (modes, times)."""
-    taken = np.mean(_by_mode(p, modal_damping(p)) * modal_speed**2, axis=1)
-    orders = np.arange(p.n_diameters + 1)
-    diameters = np.concatenate([orders, orders[1:]])
-    return np.asarray(np.bincount(diameters, weights=taken), dtype=float)
 
 
 def _modal(p: Parameters, theta: Array, samples: Sequence[Mapping[Any, Any]], name: str) -> Array:
@@ -132,15 +109,16 @@ def _modal(p: Parameters, theta: Array, samples: Sequence[Mapping[Any, Any]], na
     samples : variables over time by name, at each of these angles
     name : displacement or velocity of the disc at these angles
     """
-    waves = _waves(theta, p.n_diameters).T
-    coefficients = np.linalg.solve(waves, _stacked(samples, name))
+    coefficients = np.linalg.solve(
+        waves(theta, p.n_diameters).T, [np.asarray(each[name]) for each in samples]
+    )
     return np.asarray(coefficients / _by_mode(p, modes_at_point(p).psi))
 
 
 def _by_mode(p: Parameters, values: Array) -> Array:
     """Return values of modes by diameters, then once more those of the second mode of each pair.
 
-    The result has shape (2 n_diameters + 1, 1), in the order of `_waves`.
+    The result has shape (2 n_diameters + 1, 1), in the order of `waves`.
     """
     order = np.argsort(mode_arrays(p).diameters)
     ordered = values[order]
@@ -148,12 +126,7 @@ def _by_mode(p: Parameters, values: Array) -> Array:
     return both[:, None]
 
 
-def _stacked(samples: Sequence[Mapping[Any, Any]], name: str) -> Array:
-    """Return a variable at all angles, shape (angles, times)."""
-    return np.stack([np.asarray(each[name]) for each in samples])
-
-
-def _waves(angle: Array, most: int) -> Array:
+def waves(angle: Array, most: int) -> Array:
     """Return 1, then cosines and sines of multiples of angles, shape (2 most + 1, angles)."""
     orders = np.arange(1, most + 1)[:, None]
     multiples = orders * angle
@@ -161,46 +134,32 @@ def _waves(angle: Array, most: int) -> Array:
     return np.concatenate([ones, np.cos(multiples), np.sin(multiples)])
 
 
-def angles_round(p: Parameters) -> Array:
-    """Return as many angles round the disc as it has modes, rad."""
+def powers_between(
+    p: Parameters, begin: float, end: float, state: State | None, rate: float = RATE
+) -> tuple[Powers, State]:
+    """Return mean powers between two times in s of a motion that goes on from a state, or from the
+    static start, and the last state.
+
+    rate : samples per second
+    """
     count = 2 * p.n_diameters + 1
-    return 2 * np.pi * np.arange(count) / count
-
-
-def windows_round(
-    p: Parameters, start: float, stop: float, rate: float = RATE
-) -> dict[str, Window]:
-    """Return windows that sample the disc at `angles_round` between two times in s.
-
-    The rate is in samples per second.
-    """
-    return {
-        f"at {angle:g}": Window(start=start, stop=stop, rate=rate, theta=angle)
-        for angle in angles_round(p).tolist()
+    theta = 2 * np.pi * np.arange(count) / count
+    windows = {
+        f"at {angle:g}": Window(start=begin, stop=end, rate=rate, theta=angle)
+        for angle in theta.tolist()
     }
+    run = simulate(p, end, windows, initial_state=state).raise_for_status()
+    return powers(p, run.u_0, theta, [*run.samples.values()]), run.final_state
 
 
-def power_history(p: Parameters, until: float, widest: float = math.inf) -> list[Powers]:
-    """Return powers at `STAGES` times of the motion from the static start.
-
-    Parameters
-    ----------
-    p : the case
-    until : the last time, s
-    widest : range of the slider's height in m beyond which the motion is not followed
-    """
-    theta = angles_round(p)
+def power_history(p: Parameters, until: float) -> list[Powers]:
+    """Return powers at `STAGES` times of the motion from the static start, up to a time in s."""
     state = None
     history: list[Powers] = []
     times = np.linspace(0.0, until, STAGES + 1).tolist()
     for begin, end in pairwise(times):
-        windows = windows_round(p, max(begin, end - LENGTH), end)
-        run = simulate(p, end, windows, initial_state=state).raise_for_status()
-        state = run.final_state
-        samples = list(run.samples.values())
-        history.append(powers(p, run.u_0, theta, samples))
-        if len(history) > 1 and history[-1].width > widest:
-            break
+        found, state = powers_between(p, max(begin, end - LENGTH), end, state)
+        history.append(found)
     return history
 
 
@@ -221,22 +180,17 @@ def taken_in_compliant_contact(p: Parameters, state: State) -> Array:
     state : from which the motion goes on
     """
     compliant = p.replace(contact_compliance="residual")
-    theta = angles_round(compliant)
     end = state.time + TRANSIENT
     run = simulate(compliant, end, initial_state=state, events=False).raise_for_status()
+    state = run.final_state
     taken = []
     for _ in range(STRETCHES):
-        begin = run.final_state.time
-        windows = windows_round(compliant, begin, begin + STRETCH)
-        run = simulate(compliant, begin + STRETCH, windows, initial_state=run.final_state)
-        run.raise_for_status()
-        taken.append(powers(compliant, run.u_0, theta, list(run.samples.values())).damped)
+        found, state = powers_between(compliant, state.time, state.time + STRETCH, state)
+        taken.append(found.damped)
     return np.array(taken)
 
 
-def at_range(
-    p: Parameters, until: float, width: float, stages: Sequence[Powers] | None = None
-) -> tuple[Powers, float]:
+def at_range(p: Parameters, until: float, width: float, stages: Sequence[Powers]) -> Powers:
     """Return the powers of a growing motion about where its range has a width.
 
     A stage of `power_history` has the greatest range of seconds, in which the motion may grow much.
@@ -249,41 +203,27 @@ def at_range(
     p : the case
     until : time to which the motion is followed, s
     width : range of the slider's height, m
-    stages : the `power_history` to that time, if it is known
-
-    Returns
-    -------
-    powers : the means
-    end : end of the last of these instants, s
+    stages : the `power_history` to that time
 
     Raises
     ------
     Absent
         If the motion stays smaller, or is near that width in no instant.
     """
-    if stages is None:
-        stages = power_history(p, until, width)
     wider = [stage.width > width for stage in stages[1:]]
     if not any(wider):
         raise Absent(f"maintained contact comes to {1e3 * stages[-1].width:.3g} mm only")
-    beyond = wider.index(True)
-    begin = until * beyond / STAGES
-    theta = angles_round(p)
+    begin = until * wider.index(True) / STAGES
     state = None
     if begin > 0:
         state = simulate(p, begin, events=False).final_state
     near: list[Powers] = []
-    last = math.nan
     for end in np.arange(begin + INSTANT, until + INSTANT / 2, INSTANT).tolist():
-        windows = windows_round(p, end - INSTANT, end, INSTANT_RATE)
-        run = simulate(p, end, windows, initial_state=state).raise_for_status()
-        state = run.final_state
-        found = powers(p, run.u_0, theta, list(run.samples.values()))
+        found, state = powers_between(p, end - INSTANT, end, state, INSTANT_RATE)
         if found.width > (1 + NEAR) * width:
             break
         if found.width > (1 - NEAR) * width:
             near.append(found)
-            last = end
     if not near:
         raise Absent(f"maintained contact leaps over {1e3 * width:.3g} mm")
-    return Powers(*np.mean(near, axis=0).tolist()), last
+    return Powers(*np.mean(near, axis=0).tolist())

@@ -14,7 +14,7 @@ from pydantic import Field
 from xarray import DataArray, Dataset, DataTree
 
 from disc_model.data.dataset import Missing
-from disc_model.data.variables import stated_in
+from disc_model.data.variables import stated_in, values_text
 from disc_model.disc.modes import plate_modes
 from disc_model.disc.plate import mode_shapes, modes_at_point
 from disc_model.figures.draw import COLUMN, PAGE, bar_of, class_map, compare, panels
@@ -93,14 +93,9 @@ def name_of_case(case: DataTree) -> str:
     return ", ".join(value_text(case.dataset[name]) for name in ("N", "Omega"))
 
 
-def rest_of(case: DataTree, x: DataArray) -> float:
-    """Height of the static equilibrium in the unit of a displacement."""
-    return placed(x, number_of(case, "u_0"))
-
-
 def draw_displacements(ax: Axes, case: DataTree, samples: Dataset) -> None:
     """Draw displacements of disc and slider from static equilibrium."""
-    rest = rest_of(case, samples["u"])
+    rest = placed(samples["u"], number_of(case, "u_0"))
     for name, x, colour, style in (
         ("disc", "w", BLUE, "-"),
         ("slider", "u", ORANGE, (0, (4, 1.5))),
@@ -150,9 +145,15 @@ def contact_force(case: DataTree, history: Ranges = "history", zoom: Samples = "
 
 
 @case_figure()
-def one_separation(case: DataTree, zoom: Samples = "zoom") -> Figure:
+def one_separation(
+    case: DataTree, zoom: Samples = "zoom", lasting: Seconds | None = None
+) -> Figure:
     """(a) Displacements from static equilibrium around the first complete separation of a window,
-    (b) the gap."""
+    (b) the gap.
+
+    lasting : length of what is shown, from a tenth of it before the separation; if not given, half of the
+        separation before and after it
+    """
     layout = [["both"], ["gap"]]
     figure, axes = panels(layout, COLUMN, 1.5, sharex=True, height_ratios=(2, 1))
     samples = window_of(case, zoom)
@@ -161,28 +162,15 @@ def one_separation(case: DataTree, zoom: Samples = "zoom") -> Figure:
         raise Missing(f"has no complete separation in {zoom}")
     start, stop = complete
     margin = 0.5 * (stop - start)
-    part = after(samples.sel(time=slice(start - margin, stop + margin)), start)
+    ends = (start - margin, stop + margin)
+    if lasting is not None:
+        ends = (start - 0.1 * lasting, start + 0.9 * lasting)
+    part = after(samples.sel(time=slice(*ends)), start)
     draw_displacements(axes["both"], case, part)
     gap = 1e6 * (part["u"] - part["w"]) / part["u"].attrs["factor"]
     axes["gap"].plot(part["time"], gap, color=BLACK)
     shade_phases(axes["gap"], part, ["separation"])
     axes["gap"].set(xlabel=label(part["time"]), ylabel="Gap (μm)")
-    return figure
-
-
-@case_figure()
-def light_slider(case: DataTree, zoom: Samples = "zoom") -> Figure:
-    """Displacements from static equilibrium in a part of a window, with the losses of contact."""
-    figure, axes = panels([["a"]], COLUMN, 2.4)
-    samples = window_of(case, zoom)
-    complete = first_complete(samples) or samples["time"].values[[0, -1]]
-    start = float(complete[0]) - 0.0025
-    part = after(samples.sel(time=slice(start, start + 0.025)), start)
-    draw_displacements(axes["a"], case, part)
-    losses = part.sel(time=[first for first, _ in separations(part) if first > 0])
-    height = losses["w"] - rest_of(case, losses["w"])
-    axes["a"].plot(losses["time"], height, "o", color=RED, label="contact lost")
-    axes["a"].set_xlabel(label(part["time"]))
     return figure
 
 
@@ -335,28 +323,23 @@ def deflection_around(case: DataTree, p: Parameters, time: DataArray) -> DataArr
     """Deflection of the disc over time, r and theta, by windows at as many angles as determine the
     harmonics that modes without nodal circles are, in the unit of these; raises `Missing` if they do
     not."""
-    orders = np.arange(p.n_diameters + 1)
-    windows = [window_of(case, f"around{i}") for i in range(2 * len(orders) - 1)]
+    from workflow.paper.energy import waves  # with what simulates, which other figures do without
+
+    windows = [window_of(case, f"around{i}") for i in range(2 * p.n_diameters + 1)]
     if p.n_circles:
         raise Missing("has modes with nodal circles, which a circle of points does not tell apart")
     angles = np.array([window.attrs["theta"] for window in windows])
     values = np.array([window["w_point"].sel(time=time).values for window in windows])
-    amplitudes = np.linalg.solve(harmonics(angles, orders), values)
+    amplitudes = np.linalg.solve(waves(angles, p.n_diameters).T, values)
 
     radii = np.sort([*np.linspace(p.a, p.b, 25), p.r_0])
     theta = np.linspace(0, 2 * np.pi, 181)
     shapes = mode_shapes(p, radii) / modes_at_point(p).psi[:, None]
     both = np.vstack([shapes, shapes[1:]])  # cosines, and sines without that of order 0
-    w = np.einsum("jt,jr,aj->tra", amplitudes, both, harmonics(theta, orders))
+    w = np.einsum("jt,jr,ja->tra", amplitudes, both, waves(theta, p.n_diameters))
     unit = {"long_name": "Deflection", "units": windows[0]["w_point"].attrs["units"]}
     coordinates = {"time": time.values, "r": radii, "theta": theta}
     return DataArray(w, coordinates, ("time", "r", "theta"), attrs=unit)
-
-
-def harmonics(angles: np.ndarray, orders: np.ndarray) -> np.ndarray:
-    """Cosines and, but for order 0, sines at angles, shape (angles, functions)."""
-    turns = orders * angles[:, None]
-    return np.hstack([np.cos(turns), np.sin(turns)[:, 1:]])
 
 
 # ---- Spectra in time
@@ -380,12 +363,13 @@ def four_stretches(
 ) -> Figure:
     """Range of the disc at r_0 and a fixed angle, and its power over time and frequency in four
     stretches, with the lines of Table 2. The last row is the bilateral case `ignored`, which has
-    the same windows but the first.
+    the same windows but the first, as separation comes later.
 
     until : end of the part of the run that is shown
     """
-    high, low, below = ([f"{row} {name}" for name in STRETCHES] for row in ("high", "low", "none"))
-    layout = [["run"] * 4, high, low, below]
+    high, low = ([f"{row} {name}" for name in STRETCHES] for row in ("high", "low"))
+    below = [f"ignored {name}" for name in STRETCHES[1:]]
+    layout = [["run"] * 4, high, low, [".", *below]]
     figure, axes = panels(layout, PAGE, 1.5, height_ratios=(1.2, 1, 1.5, 1.5))
     draw_history([axes["run"]], ranges_of(case, history, until), ["w_point"])
     recorded = [window_of(case, name) for name in STRETCHES]
@@ -394,7 +378,7 @@ def four_stretches(
     rows = (
         (high, case, levels[:4], (CLOSE, HIGHEST), "with separation"),
         (low, case, levels[:4], (0.0, CLOSE), "with separation"),
-        (below[1:], ignored, levels[4:], (0.0, CLOSE), "separation ignored"),
+        (below, ignored, levels[4:], (0.0, CLOSE), "separation ignored"),
     )
     for names, each, shown, limits, text in rows:
         for name, level in zip(names, shown, strict=True):
@@ -402,24 +386,16 @@ def four_stretches(
             axes[name].set_ylim(limits)
             mark_first_separation([axes[name]], each)
         axes[names[0]].set_title(text)
-    say_as_above(axes[below[0]], axes[low[0]])
     for level, letter in zip(levels, "bcde", strict=False):
         mark_interval(axes["run"], level, letter)
     mark_first_separation([axes["run"]], case)
     mark_thickness(axes["run"], case, recorded[0]["w_point"])
     name_lines(axes[low[-1]])
     spectra = [axes[name] for name in (*high, *low, *below)]
-    for ax in spectra:
-        ax.label_outer()
+    for name in (*high, *low[1:], *below[1:]):
+        axes[name].label_outer()
     bar_of(figure, spectra, mesh, levels[0])
     return figure
-
-
-def say_as_above(ax: Axes, above: Axes) -> None:
-    """Say in a panel that it would repeat that above it."""
-    ax.set(xlim=above.get_xlim(), ylim=above.get_ylim(), title="no separation yet")
-    ax.set(xlabel=above.get_xlabel(), ylabel=above.get_ylabel())
-    ax.text(0.5, 0.5, "as above", ha="center", transform=ax.transAxes)
 
 
 def mark_interval(ax: Axes, level: DataArray, letter: str = "b") -> None:
@@ -541,32 +517,11 @@ def scales(
     layout = [["amplitudes", "regions", "times"]]
     figure, axes = panels(layout, PAGE, 2.6, width_ratios=(0.8, 1.25, 1.2))
     maps = {"map_N": study, "map_D_star": map_D_star, "map_c_p": map_c_p, "map_k_p": map_k_p}
-    points = points_on({**maps, "map_m": map_m}, section2.SEPARATING)
+    points = section2.separating_points({**maps, "map_m": map_m})
     draw_amplitudes(axes["amplitudes"], section2.BASE)
     draw_regions(axes["regions"], study, points)
     draw_times(axes["times"], points, section2.first_separations(points))
     return figure
-
-
-def points_on(
-    maps: Mapping[str, Dataset], separating: Mapping[str, tuple[str, str]]
-) -> dict[str, Dataset]:
-    """The paper's cases that separate, on shown maps, by the names of its figures; raises `Missing`
-    if a map does not have one.
-
-    separating : names of map and case
-    """
-    from workflow.paper.model import parameters_of
-
-    points = {}
-    for figure, (name, case) in separating.items():
-        study, p = maps[name], parameters_of(case, "as_published")
-        axes = {*study["outcome"].dims} - {"normalization"}
-        place = {axis: placed(study[axis], getattr(p, str(axis))) for axis in axes}
-        points[figure] = study.sel(place, method="nearest").sel(normalization=[*SCALES])
-        if not all(np.isclose(points[figure][axis], value) for axis, value in place.items()):
-            raise Missing(f"study {name} has no point of {figure}")
-    return points
 
 
 def draw_amplitudes(ax: Axes, base: Parameters) -> None:
@@ -603,7 +558,7 @@ def draw_regions(ax: Axes, study: Dataset, points: Mapping[str, Dataset]) -> Non
 
 def separates_with(outcome: DataArray) -> np.ndarray:
     """The class, see `CELLS`, of each point of outcomes whose first dimension is `SCALES`."""
-    published, orthonormal = words(outcome) == "separation"
+    published, orthonormal = words(outcome.sel(normalization=[*SCALES])) == "separation"
     said = np.where(published, "published", "neither")
     said = np.where(orthonormal, "orthonormal", said)
     return np.where(published & orthonormal, "both", said)
@@ -667,10 +622,8 @@ def stretched_ranges(study: Dataset) -> Figure:
 
 def _row_name(point: Dataset) -> str:
     """Preload and speed of a motion, and what differs from Table 1."""
-    text = f"{point['N'].item():g} N, {point['Omega'].item():g} rad/s"
-    usual = Parameters(N=1, Omega=1)
+    values = {}
     for name in ("D_star", "c_p", "k_p", "m"):
-        value = point[name].item() / point[name].attrs.get("factor", 1.0)
-        if not np.isclose(value, getattr(usual, name), rtol=1e-9, atol=0):
-            text += f", {value_text(point[name])}"
-    return text
+        values[name] = round(point[name].item() / point[name].attrs["factor"], 12)
+    text = f"{point['N'].item():g} N, {point['Omega'].item():g} rad/s, {values_text(values)}"
+    return text.removesuffix(", ")

@@ -60,7 +60,7 @@ def energies_of(free: CaseView, bilateral: CaseView) -> list[float]:
     until = bilateral["time_reached"]
     kept = energy.power_history(bilateral.parameters, until)
     settled = energy.in_the_end(kept)
-    same, _ = energy.at_range(bilateral.parameters, until, steady.width, kept)
+    same = energy.at_range(bilateral.parameters, until, steady.width, kept)
     end = simulate(free.parameters, free["time_reached"], events=False).raise_for_status()
     soft = energy.taken_in_compliant_contact(free.parameters, end.final_state)
     watts = [steady.supplied, same.supplied, steady.damped, steady.impacts, same.gained]

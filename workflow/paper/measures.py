@@ -11,7 +11,7 @@ import xarray as xr
 
 from disc_model.analysis import classify, spectra
 from disc_model.analysis.classify import FEWEST, Motion, Settled, Settling
-from disc_model.arrays import Array, Mask
+from disc_model.arrays import Array
 from disc_model.data import dataset, variables
 from disc_model.data.dataset import Missing
 from disc_model.display import counted
@@ -233,12 +233,10 @@ class CaseView:
         if time.size > 1:
             half_bin = (time[1] - time[0]) / 2
         margin = 0.99 * half_bin
-        inside = (time >= start + margin) & (time <= stop - margin)
-        if not inside.any():
+        inside = self.history.sel(time=slice(start + margin, stop - margin))
+        if not inside.sizes["time"]:
             raise Missing(f"case {self.name} has no history from {start:g} to {stop:g} s")
-        low = self.history[f"{name}_min"].values[inside].min()
-        high = self.history[f"{name}_max"].values[inside].max()
-        return Range(float(low), float(high))
+        return Range(float(inside[f"{name}_min"].min()), float(inside[f"{name}_max"].max()))
 
     def late_range(self, name: str) -> Range:
         """Return the range of a variable over the last 20 s of the run."""
@@ -254,24 +252,15 @@ class CaseView:
         length : of a stretch, s
         count : number of stretches
         """
-        end = self["time_reached"]
-        widths = []
-        for i in range(count):
-            stop = end - i * length
-            start = end - (i + 1) * length
-            widths.append(self.range_of(name, start, stop).width)
-        return widths
-
-    def last_quarters(self, name: str) -> list[float]:
-        """Return widths over the last two quarters of the time after the first separation."""
-        quarter = (self["time_reached"] - self["first_separation"]) / 4
-        return self.last_widths(name, quarter, 2)
+        ends = self["time_reached"] - length * np.arange(count)
+        return [self.range_of(name, end - length, end).width for end in ends]
 
     @property
     def quarters(self) -> list[float]:
         """Widths of the disc's range over the last two quarters of the time after the first
         separation, the last one first."""
-        return self.last_quarters("w_point")
+        quarter = (self["time_reached"] - self["first_separation"]) / 4
+        return self.last_widths("w_point", quarter, 2)
 
     @property
     def quarter_growth(self) -> float:
@@ -447,9 +436,7 @@ class CaseView:
         """
         section = self.samples("poincare").isel(time=slice(-int(last), None))
         columns = [section[name].values for name in ("w_point", "w_point_velocity")]
-        points = np.column_stack(columns)
-        extents = np.ptp(points, axis=0)
-        return signals.distinct_points(points, extents * share / signals.SAME)
+        return signals.distinct_points(np.column_stack(columns), share)
 
     def signal(self, window: str, start: float, stop: float, name: str = "w_point") -> "Signal":
         """Return a variable between two times in s, from the samples of a window."""
@@ -604,16 +591,13 @@ def published(study: xr.Dataset) -> xr.Dataset:
 
 def sound(study: xr.Dataset) -> xr.Dataset:
     """Return the grid study; raises `Missing` if a point failed."""
-    if np.any(_failed(study)):
+    if "outcome" in study:
+        failed = variables.flag_names(study["outcome"]) == "failed"
+    else:
+        failed = variables.flag_names(study["status"]) != "ok"
+    if failed.any():
         raise Missing(f"study {study.attrs.get('study', '')} has points that failed")
     return study
-
-
-def _failed(study: xr.Dataset) -> Mask:
-    """Return which points of a grid study failed, by their outcome or else their status."""
-    if "outcome" in study:
-        return variables.flag_names(study["outcome"]) == "failed"
-    return variables.flag_names(study["status"]) != "ok"
 
 
 def facts(study: xr.Dataset) -> Found:

@@ -146,12 +146,12 @@ class Row(BaseModel):
         try:
             values = {**functions, **self._evidence(known, tables), **self.given}
             if self.measure:
-                values |= _evaluated(self.measure, values)
+                values |= _compiled(self.measure)(**values)
             for name, expression in self.let.items():
-                values[name] = _evaluated(expression, values)
+                values[name] = _compiled(expression)(**values)
             verdict = FALSE
             for each, condition in reversed(self.when.items()):
-                if _evaluated(condition, values):
+                if _compiled(condition)(**values):
                     verdict = each
             notes = [fill(self.note, **values), self._on_settling()]
             return Answer(verdict, fill(self.here, **values), " ".join(filter(None, notes)))
@@ -210,11 +210,6 @@ def _require(what: str, names: Iterable[str], known: Container[str]) -> None:
     for name in names:
         if name not in known:
             raise Missing(f"{what} {name} is not among those of this run")
-
-
-def _evaluated(expression: str, values: Mapping[str, Any]) -> Any:
-    """Return the value of an expression."""
-    return _compiled(expression)(**values)
 
 
 @cache

@@ -5,12 +5,10 @@ modes, and those of `judging_tables`.
 """
 
 from collections.abc import Callable, Mapping
-from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import pandas as pd
-import yaml
 
 from disc_model.analysis import spectra
 from disc_model.analysis.classify import FEWEST, Motion, motion_of
@@ -21,9 +19,9 @@ from disc_model.simulation.api import simulate
 from disc_model.simulation.states import State
 from workflow.paper import TABLE_CASES, judging_tables
 from workflow.paper.measures import CaseView, place
+from workflow.paper.model import read_texts
 
-_FILE = Path(__file__).with_suffix(".yaml")
-TEXTS: dict[str, Any] = yaml.safe_load(_FILE.read_text(encoding="utf-8"))
+TEXTS: dict[str, Any] = read_texts("paper_tables.yaml")
 
 TABLE_1: dict[str, float] = TEXTS["table_1"]
 """Base values of the paper, SI units."""
@@ -31,7 +29,6 @@ TABLE_2 = pd.DataFrame(TEXTS["table_2"])
 """Lines of the paper's Table 2."""
 COLUMNS = ["symbol", "paper_Hz", "ours_Hz", "level_dB", "ours_is", "predicted_Hz", "paper_says"]
 """Columns of our Table 2."""
-LISTED = tuple(TABLE_2["paper_Hz"])
 
 SEARCHED = 2.0
 """Search width about a frequency of Table 2, Hz; a quarter of it about the drive's."""
@@ -69,11 +66,9 @@ def table_2(case: CaseView) -> pd.DataFrame:
         row = {
             "ours_Hz": line.frequency,
             "level_dB": 20 * np.log10(line.amplitude / reference),
-            "ours_is": UNNAMED,
+            "ours_is": str(name) if abs(name.deviation) <= COMBINED else UNNAMED,
             "predicted_Hz": name.frequency,
         }
-        if abs(name.deviation) <= COMBINED:
-            row["ours_is"] = str(name)
         rows.append(row)
     return TABLE_2.join(pd.DataFrame(rows))[COLUMNS]
 
@@ -82,10 +77,8 @@ def table_2_lines(case: CaseView) -> list[spectra.Line]:
     """Return the strongest line near each frequency of Table 2."""
     signal = case.signal("spectrum_a", 0, 10)
     found = []
-    for frequency in LISTED:
-        width = SEARCHED
-        if frequency <= LOWEST_SEARCHED:
-            width = SEARCHED / 4
+    for frequency in TABLE_2["paper_Hz"]:
+        width = SEARCHED / 4 if frequency <= LOWEST_SEARCHED else SEARCHED
         found.append(signal.strongest(frequency, width))
     return found
 
@@ -102,21 +95,15 @@ def stick_slip_rate(case: CaseView) -> float:
 # ---- What results rest on
 
 
-class Variation(NamedTuple):
-    """A further run of a case with another tolerance or other modes."""
-
-    tol: float = 1e-10
-    modes: Mapping[str, int] = {}
-
-
 AS_COMPUTED = "as computed"
-VARIED = {
-    AS_COMPUTED: Variation(),
-    "tolerance 1e-8": Variation(tol=1e-8),
-    "tolerance 1e-12": Variation(tol=1e-12),
-    "8 nodal diameters": Variation(modes={"n_diameters": 8}),
-    "one nodal circle": Variation(modes={"n_circles": 1}),
+TOL = 1e-10
+VARIED: dict[str, dict[str, Any]] = {
+    "tolerance 1e-8": {"tol": 1e-8},
+    "tolerance 1e-12": {"tol": 1e-12},
+    "8 nodal diameters": {"n_diameters": 8},
+    "one nodal circle": {"n_circles": 1},
 }
+"""Tolerances and numbers of modes of further runs."""
 
 RECORD = 60.0
 """Length of the record by which a motion is classified, s: four of the longest periods."""
@@ -129,7 +116,7 @@ LARGEST_CHANGE = 1.0
 
 
 def motion_to(
-    p: Parameters, t_end: float, tol: float = 1e-10, start: State | None = None
+    p: Parameters, t_end: float, tol: float = TOL, start: State | None = None
 ) -> tuple[Motion, State]:
     """Simulate a case and classify its motion by the releases in the last `RECORD` s.
 
@@ -204,11 +191,10 @@ def periods(cases: Mapping[str, CaseView]) -> pd.DataFrame:
         row: dict[str, Any] = {"case": stated}
 
         as_computed, state = motion_to(p, case["t_end"])
-        for words, variation in VARIED.items():
-            motion = as_computed
-            if words != AS_COMPUTED:
-                varied = p.replace(**variation.modes)
-                motion, _ = motion_to(varied, case["t_end"], variation.tol)
+        row[AS_COMPUTED] = str(as_computed.period or as_computed.kind)
+        for words, varied in VARIED.items():
+            modes = {name: value for name, value in varied.items() if name != "tol"}
+            motion, _ = motion_to(p.replace(**modes), case["t_end"], varied.get("tol", TOL))
             row[words] = str(motion.period or motion.kind)
 
         row["width"] = np.nan
@@ -229,17 +215,9 @@ def impact_law(cases: Mapping[str, CaseView]) -> pd.DataFrame:
     rows = []
     for name, modes in zip(TABLE_CASES["impact_law"], TEXTS["impact_law"], strict=True):
         case = cases[name]
-        row: dict[str, Any] = {
-            "modes": modes,
-            "first_s": np.nan,
-            "rate_Hz": np.nan,
-            "longest_ms": np.nan,
-            "separated_%": np.nan,
-            "stick_%": np.nan,
-            "range_mm": np.nan,
-        }
+        row: dict[str, Any] = {"modes": modes}
         try:
-            found = {
+            row |= {
                 "first_s": case["first_separation"],
                 "rate_Hz": case.rate_of("separation"),
                 "longest_ms": 1e3 * case.longest_separation,
@@ -249,8 +227,8 @@ def impact_law(cases: Mapping[str, CaseView]) -> pd.DataFrame:
                 "releases": str(case.late_motion),
             }
         except Missing as reason:
-            found = {"releases": str(reason)}
-        rows.append({**row, **found})
+            row["releases"] = str(reason)
+        rows.append(row)
     return pd.DataFrame(rows)
 
 

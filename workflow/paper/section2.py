@@ -39,13 +39,15 @@ SEPARATING = {
 
 
 def separating_points(maps: Mapping[str, xr.Dataset]) -> dict[str, xr.Dataset]:
-    """Return the points of `SEPARATING` on maps; raises `Missing` if one is not computed."""
+    """Return the points of `SEPARATING` on maps, in SI units or as readers see them; raises `Missing`
+    if one is not computed."""
     points = {}
     for figure, (name, case) in SEPARATING.items():
-        parameters = parameters_of(case, "as_published")
-        axes = {*maps[name]["outcome"].dims} - {"normalization"}
-        values = {axis: getattr(parameters, str(axis)) for axis in axes}
-        point = maps[name].sel(values, method="nearest")
+        study, parameters = maps[name], parameters_of(case, "as_published")
+        axes = {*study["outcome"].dims} - {"normalization"}
+        factors = {axis: study[axis].attrs.get("factor", 1.0) for axis in axes}
+        values = {axis: getattr(parameters, str(axis)) * factors[axis] for axis in axes}
+        point = study.sel(values, method="nearest")
         if not all(np.isclose(point[axis], value) for axis, value in values.items()):
             raise Missing(f"study {name} has no point of {figure}")
         if np.any(flag_names(point["outcome"]) == "failed"):

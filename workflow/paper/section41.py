@@ -83,14 +83,6 @@ def between_separations(case: CaseView) -> tuple[str, float]:
     return measures.repeats(motion, "separation"), float(intervals[: motion.period].sum())
 
 
-def ranges_of_pairs(cases: Cases) -> list[tuple[Any, ...]]:
-    """Return place, ratio and both ranges of the disc of cases with separation and without it."""
-    return [
-        (case.place, measures.width_ratio(case, other), case.disc, other.disc)
-        for case, other in pairs(cases)
-    ]
-
-
 def supplied_energies(cases: Cases, energies: pd.DataFrame) -> Found:
     """Measure which energy separation withholds of what maintained contact supplies.
 

@@ -7,20 +7,18 @@ from typing import Any, NamedTuple
 import numpy as np
 import xarray as xr
 
-from disc_model.analysis import spectra
 from disc_model.analysis.classify import separation_location
+from disc_model.arrays import Mask
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import Outcome, flag_names, values_text
 from disc_model.parameters import Parameters
-from workflow.paper import growth, measures, paper_tables
-from workflow.paper.measures import STRETCH, Absent, Array, Cases, CaseView, Found, Mask, extent
+from workflow.paper import growth, measures
+from workflow.paper.measures import STRETCH, Absent, Array, Cases, CaseView, Found, extent
 
 LOADS = (50, 125, 200, 300, 385, 600)
 """Preloads of the paper and beyond, N."""
 SPEEDS = (10, 15, 20, 30, 40)
 """Speeds of the paper and beyond, rad/s."""
-EARLY_LENGTH = 10.0
-"""Length of the stretch of the window ``early`` whose spectrum is taken, s."""
 
 
 def combinations(p: Parameters) -> list[Parameters]:
@@ -159,34 +157,6 @@ def stable_combinations(case: CaseView, **changes: Any) -> int:
 
 
 # ---- Motions before and after separation
-
-
-def power_of_combinations(case: CaseView) -> Found:
-    """Measure the disc's power at combinations of stick-slip rate and drive before it separates.
-
-    Returns
-    -------
-    dict
-        The ``span`` of time, s; the ``rate``, Hz; shares of the power that combinations have
-        (``part``), and those in which the rate takes part (``with_rate``).
-    """
-    start = float(case.samples("early")["time"].values[0])
-    stop = start + EARLY_LENGTH
-    first = case["first_separation"]
-    if not stop < first:
-        raise Missing(f"case {case.name} separates at {first:g} s, before {stop:g} s")
-    rate = case.signal("early", start, stop, "psi").lines(1, above=2 * case.drive)[0].frequency
-    lines = case.signal("early", start, stop).lines(above=1.0, floor=1e-3)
-    names = [spectra.identify(line.frequency, rate, case.drive) for line in lines]
-    power = np.array([line.amplitude**2 for line in lines])
-    near = np.array([abs(name.deviation) <= paper_tables.COMBINED for name in names])
-    of_rate = np.array([name.n > 0 for name in names])
-    return {
-        "span": (start, stop),
-        "rate": rate,
-        "part": sum(power[near]) / sum(power),
-        "with_rate": sum(power[near & of_rate]) / sum(power),
-    }
 
 
 def starts_of_separation(case: CaseView) -> Found:

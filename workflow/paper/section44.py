@@ -9,11 +9,12 @@ import numpy as np
 import xarray as xr
 
 from disc_model.analysis import spectra
+from disc_model.arrays import Mask
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import flag_names, stated_in
 from disc_model.disc.modes import plate_modes
 from workflow.paper import growth, measures, paper_tables, signals
-from workflow.paper.measures import HIGH, LOW, Array, Cases, CaseView, Found, Mask
+from workflow.paper.measures import HIGH, LOW, Array, Cases, CaseView, Found
 from workflow.paper.section2 import BASE, coupled
 from workflow.paper.section43 import plane
 
@@ -30,6 +31,8 @@ EARLY = Stretch("spectrum_a", 0.0, 10.0)
 LATER = Stretch("spectrum_b", 38.0, 48.0)
 LATE = Stretch("spectrum_d", 100.0, 110.0)
 """Stretches of the motion at N = 385 N, 15.1 rad/s that are compared."""
+EARLY_LENGTH = 10.0
+"""Length of the stretch of the window ``early`` whose spectrum is taken, s."""
 TURN = 2 * math.pi
 STIFFENED = (2, 20, 30, 36, 47, 55, 63, 73, 84, 130, 200)
 """In-plane stiffnesses, kN/m: those of the paper, and others between them."""
@@ -108,15 +111,19 @@ def far_apart(lines: Sequence[tuple[float, float]], within: float) -> int:
 
 
 def power_at(
-    case: CaseView, stretch: Stretch, belongs: Callable[[float], bool], below: float = math.inf
+    case: CaseView,
+    stretch: Stretch,
+    belongs: Callable[[float], bool],
+    above: float = LOW,
+    below: float = math.inf,
 ) -> Found:
-    """Measure which ``part`` of the power of lines above `LOW` belongs to some frequencies.
+    """Measure which ``part`` of the power of lines belongs to some frequencies.
 
     Parameters
     ----------
     case, stretch : where the lines are
     belongs : whether a frequency in Hz is one of them
-    below : Hz
+    above, below : Hz, between which the lines are
 
     Returns
     -------
@@ -124,7 +131,7 @@ def power_at(
         With it ``counts`` of lines that belong and of all lines, the frequencies of the two
         ``strongest``, and which part of the band to `HIGH` is ``near`` such a frequency.
     """
-    found = case.signal(*stretch).lines(above=LOW, below=below, floor=1e-3)
+    found = case.signal(*stretch).lines(above=above, below=below, floor=1e-3)
     power = np.array([line.amplitude**2 for line in found])
     chosen = np.array([belongs(line.frequency) for line in found])
     strongest = sorted(found, key=lambda line: -line.amplitude)[:2]
@@ -139,11 +146,36 @@ def power_at(
 def inplane_power(case: CaseView) -> Found:
     """Measure the power at combinations of the stick-slip rate and the drive: `power_at`."""
     rate = paper_tables.stick_slip_rate(case)
+    return {"rate": rate, **power_at(case, EARLY, combinations_of(case, rate), below=HIGH)}
+
+
+def combinations_of(case: CaseView, rate: float, least: int = 0) -> Callable[[float], bool]:
+    """Return whether a frequency is n `rate` + m times the drive's, Hz, where n is at least some number."""
 
     def is_combination(frequency: float) -> bool:
-        return abs(spectra.identify(frequency, rate, case.drive).deviation) <= paper_tables.COMBINED
+        name = spectra.identify(frequency, rate, case.drive)
+        return abs(name.deviation) <= paper_tables.COMBINED and name.n >= least
 
-    return {"rate": rate, **power_at(case, EARLY, is_combination, below=HIGH)}
+    return is_combination
+
+
+def power_of_combinations(case: CaseView) -> Found:
+    """Measure the disc's power at combinations of stick-slip rate and drive before it separates.
+
+    Returns
+    -------
+    dict
+        The ``span`` of time, s; the ``rate``, Hz; shares of the power that combinations have
+        (``part``), and those in which the rate takes part (``with_rate``).
+    """
+    start = float(case.samples("early")["time"].values[0])
+    stretch = Stretch("early", start, start + EARLY_LENGTH)
+    first = case["first_separation"]
+    if not stretch.stop < first:
+        raise Missing(f"case {case.name} separates at {first:g} s, before {stretch.stop:g} s")
+    rate = case.signal(*stretch, "psi").lines(1, above=2 * case.drive)[0].frequency
+    parts = [power_at(case, stretch, combinations_of(case, rate, n), 1.0)["part"] for n in (0, 1)]
+    return {"span": stretch[1:], "rate": rate, "part": parts[0], "with_rate": parts[1]}
 
 
 def natural_power(case: CaseView, within: float, turns: float) -> Found:

@@ -10,7 +10,7 @@ from disc_model.arrays import Array
 
 AROUND = (1.0, 6.0)
 """Hz, distances from a line between which the level of its neighbourhood is determined."""
-SAME = 0.01  # share of the range, along every axis, within which two points count as one
+ROUNDING = 1e-9  # share of the largest coordinate within which two points are the same
 
 
 def strongest(time: ArrayLike, values: ArrayLike, near: float, within: float) -> Line:
@@ -90,32 +90,21 @@ def coverage(
     return float(np.mean(amplitude[band] > floor * strongest))
 
 
-def distinct_points(points: Array, extent: Array | None = None) -> int:
-    """Count the distinct points of a section, by a greedy search.
+def distinct_points(points: Array, share: float) -> int:
+    """Count the distinct points of a section, by a greedy search: points count as one if they differ by
+    at most a share of the range along every axis, in which rounding is no range.
 
-    Points within `SAME` of each other count as one. A chain of near points is not merged, so that a
-    closed curve has about 1/`SAME` points.
+    A chain of near points is not merged, so that a closed curve has about 1/share points.
 
     Parameters
     ----------
     points : shape (n, d)
-    extent : shape (d,), units in which the coordinates are measured; by default the range of each
     """
-    points = np.asarray(points, dtype=float)
     if points.size == 0:
         return 0
-    if extent is None:
-        extent = np.ptp(points, axis=0)
-    # along other axes only rounding changes the points
-    varies = extent > 1e-9 * np.max(np.abs(points))
-    scaled = np.zeros(points.shape)
-    np.divide(points - points.min(axis=0), extent, out=scaled, where=varies)
-    centres: list[Array] = []
-    for point in scaled:
-        if not centres:
-            centres.append(point)
-            continue
-        apart = np.max(np.abs(np.array(centres) - point), axis=1)
-        if apart.min() > SAME:
-            centres.append(point)
+    same = np.maximum(share * np.ptp(points, axis=0), ROUNDING * np.abs(points).max())
+    centres = points[:1]
+    for point in points:
+        if np.any(np.abs(centres - point) > same, axis=1).all():
+            centres = np.vstack([centres, point])
     return len(centres)

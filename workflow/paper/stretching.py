@@ -3,7 +3,6 @@
 import math
 from collections.abc import Iterable, Iterator, Mapping
 
-import numpy as np
 import xarray as xr
 
 from disc_model.data.variables import stated_in
@@ -52,14 +51,9 @@ def words_of(begins: Mapping[str, xr.Dataset]) -> str:
     first = float(rest["first_separation"])
     text = f"separates at {first:.4g} s" if math.isfinite(first) else "no separation in 300 s"
     text += f", range {1e3 * float(rest['range']):.3g} mm in the end"
-    if not settled(rest):
+    change = abs(float(rest["range"] - rest["earlier_range"]))
+    if not change <= SETTLED * float(rest["range"]):
         text += " (not settled)"
     if begins["displaced"]["separation_rate"] > 0 and not rest["separation_rate"] > 0:
         text += ", but after a blow of 5 m/s it goes on separating"
     return text
-
-
-def settled(motion: xr.Dataset) -> bool:
-    """Whether a motion's range is that at three quarters of its time."""
-    change = motion["range"] - motion["earlier_range"]
-    return bool(np.abs(change) <= SETTLED * motion["range"])

@@ -46,8 +46,8 @@ COMMON = 0.98  # share of rates within the colours then: a few large ones would 
 SMALL = 0.2  # share of common axes below which a panel keeps its own
 LINEAR_RATE = 0.1  # up to which an axis of growth rates is linear, 1/s
 TICKS_OF_RATES = np.array([-1, -1 / 3, -0.1, 0, 0.1, 1 / 3, 1])  # over the end of the scale
-NO_LOOKS: dict[str, Look] = {}
 MOST_MARKS = 12  # on one line of several
+NO_LOOKS: dict[str, Look] = {}
 SIDES = ("right", "left")  # of lines, for their names
 NOTE: Options = {"textcoords": "offset points", "fontsize": 7}
 LOWER, UPPER = 0.015, 0.985  # places of crosses, share of a panel
@@ -377,8 +377,7 @@ def lines(
 ) -> None:
     """A line along a dimension, for each value of the other one if there is one: hollow marks where
     a value is in doubt, and along an edge crosses where there is none, and triangles where it is
-    below any number. Words are marks at places of their own, which no line joins. Of several lines
-    the first are the widest, so that the last ones hide none.
+    below any number. Words are marks at places of their own, which no line joins.
 
     doubtful : of the dimensions of `y`
     missing : what the legend says of crosses; "" for no crosses
@@ -393,14 +392,11 @@ def lines(
     if is_words(y) or is_words(y[x]):
         look = wished(look) | {"linestyle": ""}
     drawn = []
-    joined = len(parts) > 1 and wished(look).get("linestyle") != ""
+    joined = by and wished(look).get("linestyle") != ""
     every = max(1, y.sizes[x] // MOST_MARKS) if joined else 1
-    for i, ((name, part), marker) in enumerate(zip(parts, cycle("os^Dv<>ph"), strict=False)):
+    for (name, part), marker in zip(parts, cycle("os^Dv<>ph"), strict=False):
         points = places(ax.xaxis, part[x]), places(ax.yaxis, part["drawn"])
-        later = len(parts) - 1 - i
-        size = 3 + (0.4 if joined else 1.5) * later
-        usual = {"markevery": every, "linewidth": 1 + 0.2 * later, "markersize": size}
-        own = wished(look, marker=marker, label=name, **usual)
+        own = wished(look, marker=marker, label=name, markersize=3, markevery=every)
         drawn.append((*ax.plot(*opened(*points, jump), **own), *points, part["unsure"].values))
     for line, across, up, hollow in drawn:  # after all lines in the legend
         same = {"color": line.get_color(), "marker": line.get_marker()}

@@ -26,7 +26,7 @@ WIDTHS = {"column": COLUMN, "page": PAGE}
 
 
 def kind_of(name: Any) -> type[Kind]:
-    """The kind of a name, such as ``heat_map``, or ``paper.light_slider``: that of a part of the
+    """The kind of a name, such as ``heat_map``, or ``paper.one_separation``: that of a part of the
     workflow that has a module ``figures``, and may be absent. Raises `ParameterError`."""
     part, _, _ = str(name).rpartition(".")
     known = kinds_of_part(part) if part else KINDS

@@ -74,9 +74,10 @@ def draw_branch(ax: Axes, branch: Any, y: str, units: Any, **look: Any) -> None:
     thicken(ax, x, up, stable, "thick: stable", color=colour)
     mark_missing(ax, x[np.isneginf(up)], BELOW_ANY, colour, marker="v")
     for kind, (marker, name) in SPECIAL.items():
-        found = [point for point in branch.special if point.kind == kind]
-        places = [placed(x, point.value) for point in found]
-        heights = [placed(up, getattr(point, y)) for point in found]
+        found = branch.special_kind == kind
+        values = branch.variable(f"special_{branch.name}")[found]
+        places = [placed(x, value) for value in values]
+        heights = [placed(up, value) for value in branch.variable(f"special_{y}")[found]]
         marks = {"marker": marker, "markerfacecolor": colour, "markersize": 5}
         mark_points(ax, places, heights, name, color=colour, **marks)
     ax.set(xlabel=label(x), ylabel=label(up))

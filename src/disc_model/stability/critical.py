@@ -12,7 +12,7 @@ from typing import Annotated, Any, Literal, NamedTuple
 import numpy as np
 import xarray as xr
 from pydantic import Field
-from scipy.optimize import brentq, linear_sum_assignment, minimize_scalar
+from scipy.optimize import brentq, linear_sum_assignment
 
 from disc_model.arrays import Array, ComplexArray, EqualByValue, Mask
 from disc_model.data.variables import (
@@ -28,7 +28,7 @@ from disc_model.parameters import Parameters
 from disc_model.provenance import versions_text
 from disc_model.stability.continuation import Bounds, are_slow, passings, require_interval, turns_of
 from disc_model.stability.cycle import STICK_SLIP, find_cycle
-from disc_model.stability.sliding import growth_rates, steady_sliding
+from disc_model.stability.sliding import steady_sliding
 from disc_model.units import Count, CycleTolerance, checked
 
 SLIDING = "sliding"
@@ -49,16 +49,12 @@ MOST_POINTS = 100_000  # largest number of values: an hour of work
 SHORTEST = 1e-6  # of the range, to which crossings are located
 NARROWEST = 1e-5  # of the range: between values closer than that no further ones are computed
 ROUNDS = 8  # times that places of suspected instability are predicted anew
-# rad, by which a multiplier may turn from one value to the next; beyond, multipliers cannot be told
-# apart by their distances
-LONGEST_TURN = 0.3
+LONGEST_TURN = (
+    0.3  # rad, of a multiplier from one value to the next: beyond, it may be taken for another
+)
 # the angles of a pair at two values, from the real axis, over the longest turn of any multiplier:
 # up to this, the pair may have met the axis in between, and have left it again on the same side
 MAY_HAVE_MET = 1.5
-# exponents of distances by which multipliers are matched. One that passes another moves as far, in
-# sum, as two that follow each other: the first exponent does not tell them apart, the second one
-# takes them to have passed
-MATCHES = (1.0, 0.5)
 # relative change of the period at a change of stability, of two cycles on no one branch
 JUMP = 1e-4
 
@@ -272,11 +268,8 @@ def critical(
         scan = Scan(case, name, tol, kind, bar)
         for value in values:
             scan.at(value)
-        narrowest = NARROWEST * (high - low)
-        if kind == SLIDING:
-            look_for_extremes(scan, narrowest)
-        else:
-            look_for_tongues(scan, narrowest)
+        if kind != SLIDING:
+            look_for_tongues(scan, NARROWEST * (high - low))
         shortest = SHORTEST * (high - low)
         scan.locate(shortest)
         changes = [(above, scan.at(below)) for below, above in scan.changes()]
@@ -368,28 +361,6 @@ class Scan:
                     wide = True
 
 
-def look_for_extremes(scan: Scan, narrowest: float) -> None:
-    """Compute the greatest growth rates of sliding among stable neighbours, and the least ones among
-    unstable ones: of modes that meet, only one may grow for a stretch."""
-
-    def largest(x: float, sign: float) -> float:
-        """The growth rate at a value, 1/s, of modes that are not neutral, which hide what happens to
-        others, times a sign; 0 if all are, nan without steady sliding."""
-        rates = growth_rates(scan.at(float(x)).spectrum)
-        return sign * float(rates[rates != 0].max() if rates.any() else scan.at(x).growth_rate)
-
-    known = sorted(scan.motions)
-    for around in zip(known, known[1:], known[2:], strict=False):
-        stable = {scan.at(x).stable for x in around}
-        sign = -1.0 if True in stable else 1.0
-        before, here, after = (largest(x, sign) for x in around)
-        is_flat = before == here == after  # neutral at all three: there is no extreme
-        if len(stable) == 1 and here <= min(before, after) and not is_flat:
-            options = {"xatol": narrowest}
-            ends = (around[0], around[2])
-            minimize_scalar(largest, bounds=ends, args=(sign,), method="bounded", options=options)
-
-
 def look_for_tongues(scan: Scan, narrowest: float) -> None:
     """Compute further values where the cycles beside them leave a change of stability in doubt, none
     closer than `narrowest` to another one."""
@@ -408,22 +379,19 @@ def _doubtful_shares(first: ComplexArray, second: ComplexArray) -> list[float]:
     end, by their multipliers."""
     if not (len(first) and len(second)):
         return [0.5] if len(first) != len(second) else []
-    shares = set[float]()
-    distances = np.abs(first[:, None] - second[None, :])
-    for exponent in MATCHES:  # each beside the one that it becomes
-        rows, columns = linear_sum_assignment(distances**exponent)
-        before, after = first[rows], second[columns]
-        between = turns_of(before, after)
-        longest = float(np.abs(between.turns).max(initial=0))
-        shares |= {each.share for each in passings(between) if 0 < each.share < 1}
-        # a pair that passes through the real axis looks like one that has turned back
-        angles = np.array([between.angles, between.angles + between.turns])
-        for ends in (angles, math.pi - angles):
-            way = ends.sum(axis=0)
-            may_have_met = (ends > 0).all(axis=0) & (way <= MAY_HAVE_MET * longest)
-            shares.update((ends[0][may_have_met] / way[may_have_met]).tolist())
-        slow = are_slow(before, after)
-        on_axis = [np.sum(slow & (each.imag == 0)) for each in (before, after)]
-        if longest > LONGEST_TURN or on_axis[0] != on_axis[1]:
-            shares.add(0.5)
+    rows, columns = linear_sum_assignment(np.abs(first[:, None] - second[None, :]))
+    before, after = first[rows], second[columns]
+    between = turns_of(before, after)
+    shares = {each.share for each in passings(between) if 0 < each.share < 1}
+    longest = float(np.abs(between.turns).max(initial=0))
+    # a pair that passes through the real axis looks like one that has turned back
+    angles = np.array([between.angles, between.angles + between.turns])
+    for ends in (angles, math.pi - angles):
+        way = ends.sum(axis=0)
+        may_have_met = (ends > 0).all(axis=0) & (way <= MAY_HAVE_MET * longest)
+        shares.update((ends[0][may_have_met] / way[may_have_met]).tolist())
+    slow = are_slow(before, after)
+    on_axis = [np.sum(slow & (each.imag == 0)) for each in (before, after)]
+    if longest > LONGEST_TURN or on_axis[0] != on_axis[1]:
+        shares.add(0.5)
     return sorted(shares)

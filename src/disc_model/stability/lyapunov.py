@@ -15,7 +15,7 @@ from pydantic import Field, InstanceOf
 
 from disc_model.arrays import Array, EqualByValue, Indices, Mask
 from disc_model.display import drawings
-from disc_model.engine import columns, loop, model, saltation, transitions
+from disc_model.engine import columns, loop, model, saltation, section, transitions
 from disc_model.engine import state as motion
 from disc_model.engine.jit.cache import compiling
 from disc_model.engine.series import build_series
@@ -29,7 +29,7 @@ from disc_model.simulation.states import (
     series_tolerance,
     write_state,
 )
-from disc_model.stability.return_map import ENDS, integrate_in_pieces, longest_step
+from disc_model.stability.return_map import ENDS, longest_step
 from disc_model.units import Count, Seconds, Tolerance, checked
 
 _BLOCKS = 16  # segments of the averaging time
@@ -159,7 +159,7 @@ def lyapunov_exponents(
     for i in range(-steps, steps):
         if i == 0:
             frame.tangent.log[:] = 0.0
-        code = integrate_in_pieces(computed.model, series, state, frame.tangent, limits)
+        code = section.integrate(computed.model, series, state, frame.tangent, limits)
         if code != transitions.TIME_OVER:
             status = Status(ENDS[code])
             break

@@ -18,10 +18,10 @@ import numpy as np
 
 from disc_model.arrays import Array
 from disc_model.disc.plate import mode_arrays
-from disc_model.engine import columns, loop, section, step_size, tangent, transitions
+from disc_model.engine import columns, loop, section, tangent, transitions
 from disc_model.engine import state as motion
-from disc_model.engine.model import Model, blocks_of, build_state
-from disc_model.engine.series import Series, build_series
+from disc_model.engine.model import Model, build_state
+from disc_model.engine.series import build_series
 from disc_model.errors import raise_faults
 from disc_model.parameters import RESIDUAL, Parameters, foreign_case
 from disc_model.simulation.states import (
@@ -46,8 +46,6 @@ PARAMETERS = (
     "m",
 )  # by which the map can be differentiated
 RETURNED = transitions.RETURNED
-# steps times blocks of lanes and of columns: some 0.2 s, after which Ctrl-C is answered
-WORK_PER_PIECE = 100_000
 # over the model's unit of time: the rate of the fastest oscillation above which steps are
 # shortened; all published cases are below it
 FAST = 1.25
@@ -88,42 +86,6 @@ def longest_step(model: Model, order: int, tolerance: float) -> float:
     rate = fastest * model.unit
     longest = tangent.longest_step(order, tolerance)
     return longest / rate if rate > FAST else longest
-
-
-def integrate_in_pieces(
-    model: Model,
-    series: Series,
-    state: motion.EngineState,
-    changes: columns.Tangent,
-    limits: loop.FlightLimits,
-    points: section.Section | None = None,
-    start: Array | None = None,
-) -> int:
-    """Integrate as `section.integrate`, with a return to Python after every `WORK_PER_PIECE`: a
-    kernel cannot be interrupted, and an integration under extreme stiffness or mass takes
-    minutes."""
-    blocks = blocks_of(model)
-    if limits.tangent:
-        blocks *= 1 + changes.columns // columns.COLUMNS_AT_ONCE
-    step = min(limits.longest, step_size.TYPICAL_STEP) * model.unit
-    piece = WORK_PER_PIECE / blocks * step
-    left = limits.t_max
-    releases = limits.releases
-    where: tuple[Any, ...] = ()
-    if points is not None:
-        where = (points,)
-    if start is not None:
-        where = (points, start)
-        changes.log[columns.RELEASES] = 0.0  # as the engine does there
-    while True:
-        before = float(changes.log[columns.RELEASES])
-        now = limits._replace(t_max=min(left, piece), releases=releases)
-        code = section.integrate(model, series, state, changes, now, *where)
-        if code != transitions.TIME_OVER or left <= piece:
-            return code
-        left -= piece
-        releases -= int(changes.log[columns.RELEASES] - before)
-        where = where[:1]
 
 
 def parameter_change(p: Parameters, model: Model, name: str) -> Array:
@@ -314,7 +276,7 @@ class ReturnMap:
         changes = self._tangent
         # the engine knows a start by its length, and reads as many numbers as the section has
         given = start if self.size else np.zeros(1)
-        code = integrate_in_pieces(
+        code = section.integrate(
             self.model, self._series, self._state, changes, limits, self._section, given
         )
 
@@ -369,7 +331,7 @@ class ReturnMap:
             may_separate=may_separate,
             tangent=False,
         )
-        code = integrate_in_pieces(self.model, self._series, self._state, self._tangent, limits)
+        code = section.integrate(self.model, self._series, self._state, self._tangent, limits)
         scalars = motion.scalars_of(self._state)
         time = scalars["time"] + scalars["time_low"]
         return Passage(code, time, self._coordinates())

@@ -1,8 +1,8 @@
 """Cycles that slip all the time: a second section of the return map, and the search near steady sliding.
 
-The section is where the spring in the plane is longest: psi' = 0, and falling.  Where the surface
-does not move, the slip speed then rises through the drive's.  A point consists of the modal
-coordinates and psi, and on a compliant contact of u, u'.
+The section is where the slip speed rises through the drive's: f = Omega. Where the surface does not
+move, the spring in the plane is longest there.  A point consists of the modal coordinates and psi,
+and on a compliant contact of u, u'.
 
 Such cycles arise in a Hopf bifurcation of steady sliding, and end where they touch zero slip speed.
 Where friction falls with the speed they are usually unstable, and separate the motions that come to
@@ -17,7 +17,7 @@ from scipy.optimize import brentq
 from disc_model.arrays import Array
 from disc_model.data.variables import CycleStatus
 from disc_model.disc.plate import mode_arrays
-from disc_model.engine import columns, saltation, transitions
+from disc_model.engine import columns, saltation, section, transitions
 from disc_model.engine import state as motion
 from disc_model.engine.loop import FlightLimits
 from disc_model.engine.model import build_state
@@ -32,7 +32,6 @@ from disc_model.stability.return_map import (
     Orbit,
     Passage,
     ReturnMap,
-    integrate_in_pieces,
     longest_step,
     newton,
 )
@@ -40,7 +39,7 @@ from disc_model.stability.sliding import SteadySliding, split_rows, steady_slidi
 
 PIECES = 16  # in a period of the fastest mode, or of the slider on its spring: none hides a passage
 LONGEST = 20.0  # periods of the slider on its spring up to a return
-# amplitude of the drive point's rate psi', over Omega, below which a cycle is steady sliding: the
+# amplitude of f, over Omega, below which a cycle is steady sliding: the
 # parameter of a Hopf point, which depends on its square, is known to 1e-8
 SMALLEST_CYCLE = 1e-4
 SAME_TIME = 1e-9  # error of a passage over a piece: what remains is its square
@@ -52,7 +51,7 @@ PRECISION = 1e-6  # of the distance from which Newton's method begins, relative 
 
 
 class SlippingMap(ReturnMap):
-    """The return map of one case to the section on which the spring in the plane is longest; as
+    """The return map of one case to the section on which the slip speed rises through the drive's; as
     `ReturnMap`, with psi among the coordinates, behind those of the modes."""
 
     slider = ("psi",)
@@ -68,8 +67,7 @@ class SlippingMap(ReturnMap):
         # none that separates is followed, as its map is not smooth
         super().__init__(p, tol, parameters, patient=patient)
         self._before = build_state(self.model)
-        of_slider = columns.coordinate_rows(self.model, ("psi", "f"))[-2:]
-        self._psi_row, self._rate_row = of_slider.tolist()
+        self._rate_row = int(columns.coordinate_rows(self.model, ("f",))[-1])
         motion.copy_state(self._case.start, self._state)
         static = float(np.linalg.norm(self._coordinates()))
         self.deflection = math.hypot(static, p.mu_s * p.N / math.sqrt(p.k_p))
@@ -77,13 +75,10 @@ class SlippingMap(ReturnMap):
         stiffness = (self.model.stiffness, self.model.stiffness0, [p.k_p / p.m])
         self._piece = math.tau / math.sqrt(np.concatenate(stiffness).max()) / PIECES
 
-        # psi' is linear in the state, of which the drive's rate is the constant
-        self._gradient = np.zeros(self._tangent.rows)
-        for row in (*self._rows, self._rate_row):
-            column = np.zeros(self._tangent.rows)
-            column[row] = 1.0
-            self._put_column(column)
-            self._gradient[row] = self._rates()[self._psi_row] - self.model.Omega
+        # changes of f on the section with each column
+        self._moves = np.zeros(self._tangent.columns)
+        if "Omega" in parameters:
+            self._moves[self._first + parameters.index("Omega")] = 1.0
 
     def evaluate(
         self,
@@ -98,31 +93,29 @@ class SlippingMap(ReturnMap):
         speak of releases and separations have no meaning here."""
         start = np.array(x, dtype=float)
         self._put(start)
-        acceleration = -float(self._gradient @ self._rates())
+        acceleration = self._rates()[self._rate_row]
         outcome, period, end = Passage(VANISHED, 0.0, start)
         if acceleration > 0:
             outcome, period, end = self._follow_to_passage()
         # the amplitude of an oscillation about steady sliding
-        if (
-            outcome == RETURNED
-            and acceleration * period < math.tau * SMALLEST_CYCLE * self.model.Omega
-        ):
+        smallest = math.tau * SMALLEST_CYCLE * self.model.Omega
+        if outcome == RETURNED and acceleration * period < smallest:
             outcome = VANISHED
         count = self._first + len(self._names)
         jacobian = np.zeros((self.size, count))
         if outcome == RETURNED and tangent:
             self._put(start)
-            self._put_columns(count)
+            self._put_columns()
             outcome = self._advance(period, tangent=True)
         if outcome == RETURNED:
             # to the section along the motion: by rounding, and by the change of the time of passage
             rates = self._rates()
-            delay = rates[self._psi_row] / float(self._gradient @ rates)
+            delay = self._excess() / rates[self._rate_row]
             end = self._coordinates() - delay * rates[self._rows] * self.scale
             period -= delay
             if tangent:
                 changes = np.hstack(self._blocks())[:, :count]
-                delays = self._turns(changes) / float(self._gradient @ rates)
+                delays = (changes[self._rate_row] - self._moves[:count]) / rates[self._rate_row]
                 along = changes[self._rows] - np.outer(rates[self._rows], delays)
                 jacobian = along * self.scale[:, None]
         by_start, by = jacobian[:, : self.size].copy(), jacobian[:, self._first :].copy()
@@ -147,12 +140,7 @@ class SlippingMap(ReturnMap):
         """Put the engine's state at a point of the section, in slip at time 0."""
         column = np.zeros(self._tangent.rows)
         column[self._rows] = x / self.scale
-        self._put_column(column)
-        # psi' falls by the rate of slip
-        column[self._rate_row] = self._rates()[self._psi_row]
-        self._put_column(column)
-
-    def _put_column(self, column: Array) -> None:
+        column[self._rate_row] = self.model.Omega
         columns.put_column(self._state, self.model, column)
         motion.put_phase(self._state, motion.SLIP, 1)
 
@@ -163,31 +151,23 @@ class SlippingMap(ReturnMap):
         return before.reshape(self._tangent.rows, -1)[:, 0].copy()
 
     def _excess(self) -> float:
-        """The slider's rate over the drive's, rad/s."""
-        return -float(self._rates()[self._psi_row])
+        """The slip speed over the drive's, rad/s."""
+        return float(columns.column_of(self._state, self.model)[self._rate_row] - self.model.Omega)
 
     def _blocks(self) -> list[Array]:
         """The columns, in views of the engine's."""
         blocks = self._tangent.columns // columns.COLUMNS_AT_ONCE
         return [columns.block_of_columns(self._tangent, block) for block in range(blocks)]
 
-    def _put_columns(self, count: int) -> None:
+    def _put_columns(self) -> None:
         """Set the columns to unit changes of the coordinates, and those of parameters to the change
         of the section with them."""
         changes = np.zeros((self._tangent.rows, self._tangent.columns))
         changes[self._rows, np.arange(self.size)] = 1 / self.scale
-        # on the section psi' stays 0, and falls by the rate of slip
-        changes[self._rate_row, :count] = self._turns(changes[:, :count])
+        changes[self._rate_row] = self._moves
         for i, view in enumerate(self._blocks()):
             view[:] = changes[:, i * columns.COLUMNS_AT_ONCE :][:, : columns.COLUMNS_AT_ONCE]
         saltation.slider_rows(self.model, self._state, self._tangent)
-
-    def _turns(self, changes: Array) -> Array:
-        """Changes of psi' with each column."""
-        turns = self._gradient @ changes
-        if "Omega" in self._names:
-            turns[self._first + self._names.index("Omega")] += 1.0
-        return np.asarray(turns)
 
     # ---- The motion
 
@@ -207,14 +187,13 @@ class SlippingMap(ReturnMap):
             may_separate=False,
             tangent=tangent,
         )
-        code = integrate_in_pieces(self.model, self._series, self._state, self._tangent, limits)
+        code = section.integrate(self.model, self._series, self._state, self._tangent, limits)
         if code != transitions.TIME_OVER:
             return code
         return STOPS if log[columns.STICKS] + log[columns.REVERSALS] > 0 else RETURNED
 
     def _follow_to_passage(self) -> Passage:
-        """Follow the motion from the present state to the next passage through the section, where
-        the slider's excess over the drive, -psi', rises through zero."""
+        """Follow the motion from the present state to the next passage through the section."""
         p = self.parameters
         piece = self._piece
         last = math.ceil(LONGEST * math.tau * math.sqrt(p.m / p.k_p) / piece)
@@ -280,29 +259,22 @@ def find_slipping_orbit(map_: SlippingMap, sliding: SteadySliding) -> Orbit | No
 
         def growth(distance: float, away: Array = away) -> float:
             """The distance from the equilibrium after a return over that before, along the latter, less
-            one; infinite if the motion does not return, 0 where only rounding grows."""
+            one; 1 if the motion does not return, 0 where only rounding grows."""
             before = distance * away
             orbit = map_.evaluate(equilibrium + before, tangent=False)
             share = float((orbit.end - equilibrium) @ before) / distance**2
-            grown = share - 1 if orbit.returned else math.inf
+            grown = min(share - 1, 1.0) if orbit.returned else 1.0
             return grown if abs(grown) > NEUTRAL else 0.0
 
         low = SMALLEST * map_.deflection
         before = growth(low)
-        high = FACTOR * low
-        while before * (after := growth(high)) >= 0 and math.isfinite(after):
-            low, high = high, FACTOR * high
+        while before * (after := growth(FACTOR * low)) >= 0 and after < 1:
+            low *= FACTOR
             before = after
-        while high - low > PRECISION * low and before * after < 0:
-            middle = 0.5 * (low + high)
-            found = growth(middle)
-            if before * found > 0:
-                low = middle
-            else:
-                high = middle
-        orbit = (
-            newton(map_, equilibrium + 0.5 * (low + high) * away) if before * after < 0 else None
-        )
+        if before * after >= 0:
+            continue
+        distance = brentq(growth, low, FACTOR * low, xtol=PRECISION * low)
+        orbit = newton(map_, equilibrium + distance * away)
         if orbit is not None:
             return orbit
     return None

@@ -139,15 +139,13 @@ def _change(scan: _Scan, number: int, inside: int, outside: int) -> float:
     start = scan.values[inside]
     if not 0 <= outside < len(scan.values) or math.isnan(scan.growth[number, outside]):
         return start
-    end = scan.values[outside]
-    known = {start: scan.growth[number, inside], end: scan.growth[number, outside]}
     place = scan.place(number, inside)
 
     def growth(value: float) -> float:
-        if value not in known:
-            known[value] = _growth_of(place, [scan.at(start), scan.at(value)])
-        return float(known[value] if known[value] > 0 else min(known[value], -ROUNDING))
+        rate = _growth_of(place, [scan.at(start), scan.at(value)])
+        return rate if rate > 0 else min(rate, -ROUNDING)
 
+    end = scan.values[outside]
     return float(brentq(growth, start, end, xtol=ROUNDING * abs(start), rtol=ROUNDING))
 
 

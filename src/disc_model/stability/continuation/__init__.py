@@ -13,14 +13,13 @@ stability in two; `branch` is the result, and `arguments` reads what is asked.
 
 from disc_model.stability.continuation.arguments import Bounds, require_interval
 from disc_model.stability.continuation.borders import NeutralCurves, StabilityCurve, neutral_curves
-from disc_model.stability.continuation.branch import Branch, SpecialPoint, continue_cycle
+from disc_model.stability.continuation.branch import Branch, continue_cycle
 from disc_model.stability.continuation.curve import StepControl, are_slow, passings, turns_of
 
 __all__ = [
     "Bounds",
     "Branch",
     "NeutralCurves",
-    "SpecialPoint",
     "StabilityCurve",
     "StepControl",
     "are_slow",

@@ -1,6 +1,5 @@
-"""What is asked of a continuation: the free parameter, its bounds, and where to stop."""
+"""What is asked of a continuation: the free parameter and its bounds."""
 
-from collections.abc import Sequence
 from typing import Annotated, Any
 
 from disc_model.errors import Fault, ParameterError, require, suggestion
@@ -40,21 +39,10 @@ def require_interval(case: Parameters, name: Any, bounds: tuple[float, float]) -
     require((bounds[0] < bounds[1], "bounds", bounds, "must be two ascending numbers"))
 
 
-def require_within(
-    case: Parameters, name: str, bounds: tuple[float, float], values: Sequence[float]
-) -> None:
-    """Raise `ParameterError` unless the case and the values lie within bounds of a parameter."""
+def require_within(case: Parameters, name: str, bounds: tuple[float, float]) -> None:
+    """Raise `ParameterError` unless the case lies within bounds of a parameter."""
     slack = ROUNDING * (bounds[1] - bounds[0])  # ratios are rounded
     unit = case.unit(name).removeprefix("1")
     rule = f"must lie within the bounds, {bounds[0]:g} to {bounds[1]:g} {unit}".strip()
-    for where, value in ((name, case.numbers[name]), *(("values", value) for value in values)):
-        require((bounds[0] - slack <= value <= bounds[1] + slack, where, value, rule))
-
-
-def stop_kinds(stop_at: str | Sequence[str] | None) -> frozenset[str]:
-    """The kinds of special points, given by kinds or labels, at which a branch shall stop."""
-    known = {kind: kind for kind in CHANGES} | {LABELS[kind]: kind for kind in CHANGES}
-    given = [stop_at] if isinstance(stop_at, str) else stop_at or []
-    rule = f"must be None, or one or several of {', '.join(known)}"
-    require((known.keys() >= set(given), "stop_at", stop_at, rule))
-    return frozenset(known[each] for each in given)
+    value = case.numbers[name]
+    require((bounds[0] - slack <= value <= bounds[1] + slack, name, value, rule))

@@ -71,6 +71,7 @@ BORDER_KINDS: Mapping[str, Kind] = {
 """Special points of a branch, and the borders on which they lie."""
 MOST_POINTS = 100_000  # largest number of points along a line: an hour of work
 SAME_PLACE = 0.01  # distance of a point from a curve through it, over the span of the plane
+BETWEEN = 100  # places on a curve between two of its points that are looked at
 # relative difference of periods on one curve; those of the two borders of one resonance differ by
 # 1 % and more
 SAME_PERIOD = 0.004
@@ -455,26 +456,20 @@ class _CurveSearch:
     def _is_known(self, kind: str, place: Array, period: float) -> bool:
         """Whether a known curve of this kind, with cycles of this period (s), passes through a
         place of the plane."""
-        for curve in self.curves:
-            distance, period_there = _nearest_on(curve, place, self._span)
-            close = distance < SAME_PLACE and abs(period_there / period - 1) < SAME_PERIOD
-            if curve.kind == kind and close:
-                return True
-        return False
+        return any(
+            curve.kind == kind and _passes_through(curve, place, period, self._span)
+            for curve in self.curves
+        )
 
 
-def _nearest_on(curve: StabilityCurve, point: Array, span: Array) -> tuple[float, float]:
-    """Distance of a point of the plane from a curve, over the span, and the period of the cycle
-    there, s."""
-    corners = (curve.values - point) / span
-    steps = np.diff(corners, axis=0)
-    size = np.sum(steps**2, axis=1)
-    projection = -np.sum(corners[:-1] * steps, axis=1)
-    share = np.clip(projection / np.where(size > 0, size, 1.0), 0.0, 1.0)
-    distance = np.linalg.norm(corners[:-1] + share[:, None] * steps, axis=1)
-    i = int(np.argmin(distance))
-    change = curve.period[i + 1] - curve.period[i]
-    return float(distance[i]), float(curve.period[i] + share[i] * change)
+def _passes_through(curve: StabilityCurve, place: Array, period: float, span: Array) -> bool:
+    """Whether a curve, with cycles of this period (s), passes through a place of the plane."""
+    numbers = np.arange(len(curve.period))
+    between = np.linspace(0, numbers[-1], BETWEEN * len(numbers))
+    apart = (curve.values - place) / span
+    distance = np.hypot(*(np.interp(between, numbers, column) for column in apart.T))
+    relative = np.interp(between, numbers, curve.period) / period - 1
+    return bool(np.any((distance < SAME_PLACE) & (np.abs(relative) < SAME_PERIOD)))
 
 
 def _border_of(entries: Sequence[Entry]) -> Entry | None:

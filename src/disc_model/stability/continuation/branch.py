@@ -6,7 +6,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 import xarray as xr
@@ -30,11 +30,9 @@ from disc_model.simulation.states import State
 from disc_model.stability.continuation.arguments import (
     CHANGES,
     LABELS,
-    ROUNDING,
     Bounds,
     require_interval,
     require_within,
-    stop_kinds,
 )
 from disc_model.stability.continuation.curve import MOST_POINTS, CurvePoint, StepControl
 from disc_model.stability.continuation.cycles import (
@@ -44,7 +42,6 @@ from disc_model.stability.continuation.cycles import (
     LOST,
     PERIOD_DOUBLING,
     SAME_VALUE,
-    STOPPED,
     Course,
     CycleProblem,
     Entry,
@@ -54,7 +51,7 @@ from disc_model.stability.continuation.cycles import (
 )
 from disc_model.stability.cycle import STICK_SLIP, guess_faults, multipliers
 from disc_model.stability.segments import extremes_of_cycle
-from disc_model.units import Count, CycleTolerance, Finite, Unit, checked
+from disc_model.units import Count, CycleTolerance, checked
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -70,52 +67,6 @@ OF_CYCLES = (
     *("largest_multiplier", "stable", "multipliers", "separations", "releases", "diameters"),
 )
 """What is given of the points of a branch, but not of special ones."""
-
-
-@dataclass(frozen=True, eq=False, repr=False)
-class SpecialPoint:
-    """A point of a branch at which the number or the stability of cycles changes, or its end: one along
-    `special` of the branch's dataset, whose variables are its attributes.
-
-    Attributes
-    ----------
-    kind : "fold", two cycles meet; "period_doubling", a multiplier is -1; "neimark_sacker", a complex pair of
-        multipliers has modulus one; "grazing", a switch is touched, and an event appears or vanishes; "hopf", the
-        cycle shrinks to steady sliding; "branch_point", another branch crosses; "end", of the branch;
-        "max_points", its end for no other reason than the number of points; "lost", its end where no step succeeds
-    label : of the kind in AUTO and COCO: LP, PD, TR, BP, HB, EP; GR
-    period : s; stick_fraction; range, u_min, u_max : m
-    growth_rate : 1/s; exactly 0 where the cycle gains or loses stability
-    multiplier : the one that is critical; at a grazing and at an end, the leading one
-    after : number of the point of the branch before it, or at it
-    changes_stability : whether the cycle gains or loses stability there
-    """
-
-    branch: Branch
-    number: int
-
-    def __getattr__(self, name: str) -> Any:
-        if name.startswith("_"):
-            raise AttributeError(name)
-        return self.branch.variable(f"special_{name}")[self.number].item()
-
-    @property
-    def value(self) -> float:
-        """The free parameter, SI units."""
-        return float(getattr(self, self.branch.name))
-
-    @property
-    def case(self) -> Parameters:
-        """The case with the value of this point."""
-        return self.branch.case.replace(**{self.branch.name: self.value})
-
-    @property
-    def state(self) -> State:
-        """The cycle's state on the section, at time 0, to simulate and draw."""
-        return self.branch.state(self.number, "special_")
-
-    def __repr__(self) -> str:
-        return f"SpecialPoint({self.kind} at {self.value:.9g}, period {self.period:.6g} s)"
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -138,8 +89,8 @@ class Branch:
     --------
     >>> import disc_model as dm
     >>> branch = dm.continue_cycle(dm.Parameters(N=385, Omega=14.9), "Omega", (14.8, 15.2))
-    >>> branch.special[1]
-    SpecialPoint(fold at 15.094912, period 0.0147969 s)
+    >>> branch.folds.round(6)
+    array([15.094912])
     """
 
     data: xr.Dataset
@@ -167,27 +118,16 @@ class Branch:
 
     @property
     def ended(self) -> str:
-        """Why the branch ends: "bound", of the parameter; "closed", it is back at its start; "stopped", at
-        the first of the points asked for; "grazing", a switch is touched, and no cycle continues it; "hopf",
-        the cycle shrinks to steady sliding; "period_doubling", it becomes one of half the period; "limit", of
-        what makes a case; "max_points"; or "lost", no step succeeds. Of both ends if they differ, that of the
-        first point first."""
+        """Why the branch ends: "bound", of the parameter; "closed", it is back at its start; "grazing", a
+        switch is touched, and no cycle continues it; "hopf", the cycle shrinks to steady sliding;
+        "period_doubling", it becomes one of half the period; "limit", of what makes a case; "max_points"; or
+        "lost", no step succeeds. Of both ends if they differ, that of the first point first."""
         return str(self.data.attrs["ended"])
 
     @property
     def values(self) -> Array:
         """The free parameter, shape (n_points,), in SI units."""
         return self.variable(self.name)
-
-    @property
-    def special(self) -> tuple[SpecialPoint, ...]:
-        """The special points in their order along the branch; `special_points` is their table."""
-        return tuple(SpecialPoint(self, i) for i in range(self.data.sizes["special"]))
-
-    @property
-    def changes(self) -> list[SpecialPoint]:
-        """The special points at which a multiplier crosses the unit circle."""
-        return [each for each in self.special if each.kind in CHANGES]
 
     @property
     def folds(self) -> Array:
@@ -206,8 +146,18 @@ class Branch:
 
     @property
     def special_points(self) -> pd.DataFrame:
-        """The special points as a table: their `kind` and `label`, the parameter by its name (SI
-        units), the other variables along `special`, and `state`, a `State` of the cycle.
+        """The special points as a table, at which the number or the stability of cycles changes, and the ends.
+
+        - kind: "fold", two cycles meet; "period_doubling", a multiplier is -1; "neimark_sacker", a complex pair of
+          multipliers has modulus one; "grazing", a switch is touched, and an event appears or vanishes; "hopf", the
+          cycle shrinks to steady sliding; "branch_point", another branch crosses; "end", of the branch;
+          "max_points", its end for no other reason than the number of points; "lost", its end where no step succeeds
+        - label: of the kind in AUTO and COCO: LP, PD, TR, BP, HB, EP; GR
+        - the parameter by its name; period (s); stick_fraction; range, u_min, u_max (m)
+        - growth_rate (1/s): exactly 0 where the cycle gains or loses stability, as `changes_stability` says
+        - multiplier: the one that is critical; at a grazing and at an end, the leading one
+        - after: number of the point of the branch before it, or at it
+        - state: the cycle's `State` on the section, at time 0, to simulate, to draw, and to start again from
 
         Examples
         --------
@@ -221,7 +171,7 @@ class Branch:
         """
         table = self.data.drop_dims(["point", "mode", "multiplier"]).to_dataframe()
         table.columns = [str(name).removeprefix("special_") for name in table]
-        states: Any = {"state": [each.state for each in self.special]}
+        states: Any = {"state": [self.state(i, "special_") for i in range(len(table))]}
         return table.reset_index(drop=True).assign(**states)
 
     def to_dataset(self) -> xr.Dataset:
@@ -271,11 +221,6 @@ class Branch:
         require((known, "data", type(data).__name__, rule))
         return cls(with_complex_values(data))
 
-    def at(self, value: float) -> list[int]:
-        """Numbers of the cycles at a value of the parameter, in SI units, along the branch; none if the
-        branch passes it between two cycles or not at all."""
-        return np.flatnonzero(np.abs(self.values - value) <= ROUNDING * abs(value)).tolist()
-
     def case_at(self, i: int) -> Parameters:
         """The case of the i-th cycle."""
         return self.case.replace(**{self.name: float(self.values[i])})
@@ -299,10 +244,14 @@ class Branch:
 
     def refined(self, name: str) -> Array:
         """A variable of each cycle, such as the parameter, at the points of the branch and, in their
-        places between these, at its `changes`; shape (n_points + n_changes,), in SI units."""
+        places between these, where a multiplier crosses the unit circle, with the value of the point
+        before if special points have none of their own; shape (n_points + n_crossings,), in SI units."""
         located = np.isin(self.variable("special_kind"), CHANGES)
-        places = 1 + self.variable("special_after")[located].astype(int)
-        return np.insert(self.variable(name), places, self.variable(f"special_{name}")[located])
+        after = self.variable("special_after")[located].astype(int)
+        own = self.variable(name)
+        known = f"special_{name}" in self.data.variables
+        inserted = self.variable(f"special_{name}")[located] if known else own[after]
+        return np.insert(own, after + 1, inserted)
 
     def plot(
         self,
@@ -396,13 +345,13 @@ def branch_of(problem: CycleProblem, course: Course, exact: Sequence[float] = ()
 
 
 def _with_ends(course: Course) -> list[Entry]:
-    """The points and special points of a course, its ends among the latter; one that closes, stops or
+    """The points and special points of a course, its ends among the latter; one that closes or
     begins at a special point has that instead."""
     entries = list(course.entries)
     first = entries[0]
-    if course.last not in (CLOSED, STOPPED):
+    if course.last != CLOSED:
         entries.append(_end_of(course.last, entries[-1]))
-    if not (first.kind or course.last == CLOSED or course.first == STOPPED):
+    if not (first.kind or course.last == CLOSED):
         entries.insert(1, _end_of(course.first, first))
     return entries
 
@@ -442,8 +391,6 @@ def continue_cycle(  # noqa: PLR0913
     releases: Count = 1,
     tol: CycleTolerance = 1e-12,
     steps: StepControl = StepControl(),  # noqa: B008
-    values: Annotated[tuple[Finite, ...], Unit(of="name")] = (),
-    stop_at: str | list[str] | None = None,
     kind: str = STICK_SLIP,
     progress: bool = False,
 ) -> Branch:
@@ -463,9 +410,6 @@ def continue_cycle(  # noqa: PLR0913
     guess, releases, tol : as in `floquet`; with the state of a period doubling and twice its releases, the branch that
         begins there is followed, one way
     steps : length and number of the steps
-    values : of the parameter, within the bounds; the branch has a cycle at exactly each of them, as often as it passes
-    stop_at : "fold", "period_doubling" or "neimark_sacker", or the label "LP", "PD" or "TR", to end at the first such
-        point, in each direction; several of them to end at the first of any
     kind : "stick_slip"; or "slipping" for the cycle of `floquet(case, kind="slipping")`, which slips all the time, from
         the Hopf point of steady sliding to where it touches zero slip speed
     progress : whether standard error shows how many cycles are found, and at which value of the parameter
@@ -485,18 +429,15 @@ def continue_cycle(  # noqa: PLR0913
     The fold of the cycle at 385 N:
 
     >>> import disc_model as dm
-    >>> branch = dm.continue_cycle(dm.Parameters(N=385, Omega=14.9), "Omega", (14.8, 15.2), values=[15.0])
+    >>> branch = dm.continue_cycle(dm.Parameters(N=385, Omega=14.9), "Omega", (14.8, 15.2))
     >>> branch
     Branch(... cycles, Omega from 14.8 to 15.09... rad/s, 1 fold; ended: bound)
     >>> print(f"{branch.folds[0]:.6f} rad/s")
     15.094912 rad/s
-    >>> branch.growth_rate[branch.at(15.0)].round(4).tolist()
-    [-0.1055, 0.5751]
     """
     raise_faults(guess_faults(guess, releases, kind))
     require_interval(case, name, bounds)
-    require_within(case, name, bounds, values)
-    stops = stop_kinds(stop_at)
+    require_within(case, name, bounds)
     farthest = max(map(abs, bounds))
     problem, start = first_cycle(case, name, farthest, tol, guess, releases, kind)
     with progress_bar("continue_cycle", None, progress) as bar:
@@ -507,6 +448,5 @@ def continue_cycle(  # noqa: PLR0913
             bar.advance()
             return row_of(problem, point)
 
-        tracer = Tracer(problem, steps, bounds, stops, keep)
-        course = tracer.with_values(tracer.follow(start, direction), values)
-    return branch_of(problem, course, (*bounds, case.numbers[name], *values))
+        course = Tracer(problem, steps, bounds, keep).follow(start, direction)
+    return branch_of(problem, course, (*bounds, case.numbers[name]))

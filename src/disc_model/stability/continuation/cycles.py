@@ -93,7 +93,6 @@ GRAZING = "grazing"
 BRANCH_POINT = "branch_point"
 BOUND = "bound"
 CLOSED = "closed"
-STOPPED = "stopped"
 HOPF = "hopf"
 LIMIT = "limit"
 LOST = "lost"
@@ -242,9 +241,7 @@ class CycleProblem:
         if len(sides) == 2:
             return (self.residual(z + move) - self.residual(z - move)) / (2 * DIFFERENCE)
         [side] = sides
-        near = self.residual(z + side * move)
-        far = self.residual(z + 2 * side * move)
-        return side * (4 * near - 3 * here - far) / (2 * DIFFERENCE)
+        return side * (self.residual(z + side * move) - here) / DIFFERENCE
 
     def _is_case(self, z: Array) -> bool:
         """Whether the parameters of z are those of a case."""
@@ -362,22 +359,19 @@ class Course(NamedTuple):
 
 
 class Tracer:
-    """The way of a branch of a problem in one parameter, between the bounds of a span, up to the first
-    special point of one of the kinds `stop_at` if there is one. It keeps of each point along the branch
-    what `keep` makes of it, while the map of its case is still at hand."""
+    """The way of a branch of a problem in one parameter, between the bounds of a span. It keeps of each point
+    along the branch what `keep` makes of it, while the map of its case is still at hand."""
 
     def __init__(
         self,
         problem: CycleProblem,
         steps: StepControl,
         span: tuple[float, float],
-        stop_at: frozenset[str] = frozenset(),
         keep: Callable[[CurvePoint], Any] = lambda _: None,
     ) -> None:
         self.problem = problem
         self.steps = steps
         self.low, self.high = (bound / problem.scales[0] for bound in span)
-        self.stop_at = stop_at
         self.keep = keep
 
     def follow(self, start: CurvePoint, direction: int = 0) -> Course:
@@ -443,9 +437,6 @@ class Tracer:
                     entries.append(self._entry(at_bound))
                 return BOUND
             entries.append(self._entry(point, kind, multiplier))
-            if kind in self.stop_at:
-                entries.append(entries[-1]._replace(kind=""))
-                return STOPPED
         entries.append(self._entry(new))
         return end or self._bound_at(new)
 
@@ -471,22 +462,6 @@ class Tracer:
         away = there.z - known.z
         across = away - (away @ there.tangent) * there.tangent
         return float(np.linalg.norm(across)) < SAME_POINT
-
-    def with_values(self, course: Course, wanted: Sequence[float]) -> Course:
-        """The course with a point at each of some values, in SI units, wherever it passes one."""
-        scaled = sorted(value / self.problem.scales[0] for value in wanted)
-        entries = course.entries[:1]
-        for (before, *_), after in pairwise(course.entries):
-            low, high = sorted([before.value, after.point.value])
-            passed = [x for x in scaled if low + margin(low) < x < high - margin(high)]
-            for value in passed if before.value < after.point.value else reversed(passed):
-                point = self._at_value(before, after.point, value)
-                if point is not None:
-                    entries.append(self._entry(point))
-            entries.append(after)
-            if after.kind and any(abs(after.point.value - x) <= margin(x) for x in scaled):
-                entries.append(after._replace(kind=""))
-        return course._replace(entries=entries)
 
     # ---- Steps, which end at the bounds where they would pass them, and points between two neighbours
 

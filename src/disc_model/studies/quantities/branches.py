@@ -116,9 +116,9 @@ def branches(
         """Continue a cycle in both directions, unless a known branch passes there."""
         nonlocal failures, left_out
         assert cycle.state is not None
-        size = extremes_of_cycle(cycle.parameters, cycle.state, cycle.period).range
+        low, high = extremes_of_cycle(cycle.parameters, cycle.state, cycle.period)
         value = cycle.parameters.numbers[name]
-        if any(_passes(row, value, cycle.period, size) for row in rows):
+        if any(_passes(row, value, cycle.period, high - low) for row in rows):
             return
         if len(rows) >= MOST_BRANCHES:
             left_out += 1
@@ -173,15 +173,14 @@ def _stretches(branch: Branch, releases: int) -> list[dict[str, Any]]:
     """A branch with the special points at which its stability may change among its points: a row for each
     stretch with one number of separations in a period. A stretch begins at the last point of the one before,
     to which it is joined."""
-    # no special point but a grazing lies where the number of separations changes
-    after = np.array([special.after for special in branch.changes], dtype=int)
-    separations = np.insert(branch.separations, after + 1, branch.separations[after])
     columns = {
         "value": branch.refined(branch.name),
         "period": branch.refined("period"),
         "growth_rate": branch.refined("growth_rate"),
         "range": branch.refined("range"),
     }
+    # no special point but a grazing lies where the number of separations changes
+    separations = branch.refined("separations")
     rows = []
     ends = [0, *(np.flatnonzero(np.diff(separations)) + 1), len(separations)]
     for first, end in pairwise(ends):
