@@ -581,7 +581,7 @@ class SlidingModes:
     damping_ratio : (n,), negative for a mode that grows, and 0 where the growth rate is
     diameters, circles : (n,), nodal diameters and circles of the disc's modes with most energy; -1 if the slider's
         in-plane motion has most
-    disc : (n,), share of the disc of the energy
+    disc, across, in_plane : (n,), shares of the energy: of the disc, and of the slider across the disc and in its plane
     forward : (n,), share of these modes' energy in waves that travel with the slider, seen at f - l Omega / 2 pi
     shapes : (rows of `SteadySliding.jacobian`, n)
     """
@@ -592,6 +592,8 @@ class SlidingModes:
     diameters: Indices
     circles: Indices
     disc: Array
+    across: Array
+    in_plane: Array
     forward: Array
     shapes: ComplexArray = field(repr=False)
 
@@ -646,6 +648,7 @@ def _modes_of(p: Parameters, values: ComplexArray, vectors: ComplexArray) -> Sli
     u = height[0] if len(height) else modes.psi @ a
     across = np.abs(u) ** 2 * (p.k + p.m * np.abs(values) ** 2)
     in_plane = p.r_0**2 * (p.k_p * np.abs(psi) ** 2 + p.m * np.abs(f) ** 2)
+    whole = disc + across + in_plane
     slides = in_plane > disc
     return SlidingModes(
         frequency=values.imag / (2 * math.pi),
@@ -653,7 +656,9 @@ def _modes_of(p: Parameters, values: ComplexArray, vectors: ComplexArray) -> Sli
         damping_ratio=np.asarray((0.0 - growth_rate) / np.abs(values), dtype=float),
         diameters=np.where(slides, -1, diameters).astype(np.int64),
         circles=np.where(slides, -1, circles).astype(np.int64),
-        disc=disc / (disc + across + in_plane),
+        disc=disc / whole,
+        across=across / whole,
+        in_plane=in_plane / whole,
         forward=forward,
         shapes=vectors,
     )
