@@ -12,7 +12,6 @@ from benchmarks.methods.integrators import Problem
 from benchmarks.methods.whole_runs import STABILITY_LIMIT
 from benchmarks.scenes import Answer
 from disc_model.disc.plate import mode_arrays
-from disc_model.mode_choice import real_modes
 from disc_model.parameters import Parameters
 
 SPANS: Mapping[str, float] = {"stick_slip": 1.0, "separating": 0.1}
@@ -54,7 +53,7 @@ def failure_map(
         of_case = {
             "method": method,
             "scene": scene,
-            "modes": real_modes(count, 0),
+            "modes": 2 * count + 1,
             "step_limit": STABILITY_LIMIT / top,
             "shortest_phase": float(gaps[gaps > 0].min()),
         }

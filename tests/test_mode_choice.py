@@ -27,7 +27,6 @@ def test_frequencies_meet_the_tolerance_with_the_fewest_modes(
     assert (chosen.n_diameters, chosen.n_circles) == size
     assert choice.error <= tolerance
     assert choice.errors[size] == choice.error
-    assert choice == choose_modes(dict(p), tolerance)
     rich = p.replace(n_diameters=RICH[0], n_circles=RICH[1])
     smaller = chosen.replace(n_diameters=chosen.n_diameters - 1)
     assert frequency_error(smaller, rich) > tolerance
@@ -73,17 +72,15 @@ def test_first_modes_of_a_table_are_compared_with_all_of_them() -> None:
 def test_a_whole_table_is_never_the_answer(count: int, quantity: str) -> None:
     """It was compared with itself, and its error given as 0."""
     case = P.replace(disc=TABLE.first(count), r_0=0.1)
-    with pytest.raises(UndecidedModes, match="give a table with more modes") as raised:
+    with pytest.raises(UndecidedModes, match="give a table with more modes"):
         choose_modes(case, quantity=quantity)
-    assert all(error > 1e-3 for error in raised.value.errors.values())
-    assert (count,) not in raised.value.errors
 
 
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        ({"quantity": "first_separation"}, "quantity='first_separation': must be one of"),
-        ({"tolerance": 9e-5}, "tolerance=9e-05: must be finite and >= 0.0001"),
+        ({"quantity": "first_separation"}, "quantity='first_separation': .*growth"),
+        ({"tolerance": 9e-5}, "tolerance=9e-05: must be >= 0.0001"),
         ({"tolerance": "small"}, "tolerance='small': must be"),
     ],
 )

@@ -43,11 +43,7 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
     ),
     (dm.steady_sliding, {}, {}),
     (dm.squeal, {"case": P, "bounds": (10, 12), "points": 2}, {}),
-    (
-        dm.choose_modes,
-        {"case": P, "quantity": "sliding_growth"},
-        {"case": "dict", "tolerance": "None"},
-    ),
+    (dm.choose_modes, {"case": P, "quantity": "sliding_growth"}, {"tolerance": "None"}),
     (
         dm.simulate,
         {"case": P, "t_end": 1.0},

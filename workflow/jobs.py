@@ -7,13 +7,12 @@ import json
 import logging
 import sys
 from collections.abc import Iterator
-from itertools import chain
 from pathlib import Path
 from typing import Any
 
 import xarray as xr
 
-from disc_model.data.dataset import load_cases, load_result, save
+from disc_model.data.dataset import load_cases, load_tree, save
 from disc_model.errors import DiscModelError
 
 
@@ -49,9 +48,7 @@ def _compute_part(job: str, output: Path) -> xr.Dataset:
 
     output.parent.mkdir(parents=True, exist_ok=True)
     content, _, _ = output.stem.partition("-")
-    known = (
-        load_result(path).to_dataset() for path in sorted(output.parent.glob(f"{content}-*.nc"))
-    )
+    known = (load_tree(path).to_dataset() for path in sorted(output.parent.glob(f"{content}-*.nc")))
     results = run_job(job, known)
     save_dataset(results, output)
     return results
@@ -63,8 +60,8 @@ def grid(output: str, failed: str, remarked: str, folder: str) -> None:
 
     plan = read_plan()
     parts = _parts(plan["jobs"], Path(folder))
-    points, results = zip(*chain.from_iterable(map(points_of, parts)), strict=True)
-    study = merge(plan["layout"], points, results, plan["attrs"])
+    results = [row for part in parts for _, row in points_of(part)]
+    study = merge(plan["layout"], results, plan["attrs"])
     for path, points in zip((failed, remarked), told_points(study), strict=True):
         text = "no point" if points.empty else points.to_string(index=False)
         Path(path).write_text(f"{text}\n", encoding="utf-8")
@@ -75,7 +72,7 @@ def _parts(jobs: dict[str, str], folder: Path) -> Iterator[xr.Dataset]:
     """The parts of a grid; the only one is computed here."""
     for key, job in jobs.items():
         path = folder / f"{key}.nc"
-        yield load_result(path).to_dataset() if path.exists() else _compute_part(job, path)
+        yield load_tree(path).to_dataset() if path.exists() else _compute_part(job, path)
 
 
 # ---- Figures and pages
@@ -87,7 +84,7 @@ def figure(pdf: str, png: str) -> None:
     from disc_model.figures.kinds import save as save_figure
 
     plan = read_plan()
-    shown = {name: load_result(file, lazy=True) for name, file in plan["files"].items()}
+    shown = {name: load_tree(file, lazy=True) for name, file in plan["files"].items()}
     for name, title in plan["titles"].items():
         shown[name].attrs["title"] = title
     options = plan["plot"]
@@ -131,7 +128,7 @@ def provenance(output: str, *paths: str) -> None:
 
 def motions(output: str) -> None:
     """Store short histories at points of a grid, for the explorer."""
-    from disc_model.studies.motions import run_motions
+    from disc_model.studies.run import run_motions
 
     save_dataset(run_motions(sys.stdin.read()), output)
 
@@ -143,8 +140,8 @@ def explorer(output: str) -> None:
     plan = read_plan()
     studies = []
     for study in plan["studies"]:
-        data = load_result(study["data"]).to_dataset()
-        stored = load_result(study["motions"]).to_dataset() if study["motions"] else None
+        data = load_tree(study["data"]).to_dataset()
+        stored = load_tree(study["motions"]).to_dataset() if study["motions"] else None
         studies.append(study_contents(study["name"], data, stored, study["stated"]))
     text = page(plan["title"], studies)
     Path(output).write_text(text, encoding="utf-8")

@@ -49,7 +49,7 @@ _NAMES = {
     "studies.quantities.range_law": "range_law",
     "studies.quantities.regions": "regions",
     "studies.quantities.sensitivity": "sensitivity",
-    "studies.quantities.sliding": "sliding_modes",
+    "studies.quantities.sliding_modes": "sliding_modes",
     "studies.run": "run_study",
     "studies.sweep": "sweep",
     "stability.continuation": "Branch StepControl continue_cycle neutral_curves",
@@ -113,7 +113,7 @@ if TYPE_CHECKING:
     from disc_model.studies.quantities.range_law import range_law
     from disc_model.studies.quantities.regions import regions
     from disc_model.studies.quantities.sensitivity import sensitivity
-    from disc_model.studies.quantities.sliding import sliding_modes
+    from disc_model.studies.quantities.sliding_modes import sliding_modes
     from disc_model.studies.run import run_study
     from disc_model.studies.sweep import sweep
 

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Callable, Iterable
 from functools import partial
 from itertools import combinations, pairwise
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Self
 
-from pydantic import BeforeValidator, Field, field_validator, model_validator
+from pydantic import Field, field_validator, model_validator
 
 from disc_model.display import counted, frequencies_text
-from disc_model.errors import Fault, raise_faults, require
-from disc_model.mode_units import UNCERTAIN, mode_number, mode_number_in_si
+from disc_model.errors import raise_faults, require
 from disc_model.units import Count, Finite, Positive, Strict, Unit, limits_faults, within
 
 if TYPE_CHECKING:
@@ -30,12 +30,22 @@ GIVEN_ONCE = (
 NO_PAIR = "a mode without nodal diameters is no half of a pair, and must be given once"
 
 Quantity = float | str  # a number, or a text that stands for one, with or without its unit
-Column = Iterable[float | str]  # numbers of the modes of a table
 
 
-def _read(quantity: str) -> BeforeValidator:
-    """A validator for pydantic, which reads a text with a unit as a number of a mode."""
-    return BeforeValidator(lambda text: mode_number(quantity, text))
+UNCERTAIN = {"omega": "rad/s", "amplitude": "kg^-1/2", "damping_ratio": "", "tangential": "kg^-1/2"}
+"""Columns of numbers of modes, and their SI units."""
+_OF_A_MODE = re.compile(rf"({'|'.join(UNCERTAIN)})_\d+_\d+")
+
+
+def column_of(name: Any) -> str:
+    """What a name such as omega_2_0 is of a mode: omega; "" if it is no such name."""
+    match = _OF_A_MODE.fullmatch(name) if isinstance(name, str) else None
+    return match[1] if match else ""
+
+
+def si_unit_of_mode(name: str) -> str:
+    """The SI unit of a number of a mode by its name, "" of a share or another name."""
+    return UNCERTAIN.get(column_of(name), "")
 
 
 class Disc(Strict):
@@ -43,8 +53,6 @@ class Disc(Strict):
 
     Modes with nodal diameters are pairs (cosine and sine), each given once. `from_csv`, `from_uff`
     and `from_section` make one.
-
-    Numbers may be texts with their units, such as "929 Hz" or "0.1 %".
 
     Parameters
     ----------
@@ -75,13 +83,13 @@ class Disc(Strict):
     """
 
     diameters: tuple[Annotated[Count, Field(ge=0, le=60)], ...]
-    omega: tuple[Annotated[Finite, within(FREQUENCIES), _read("omega")], ...]
-    amplitude: tuple[Annotated[Finite, _read("amplitude")], ...]
-    damping_ratio: tuple[Annotated[Finite, Field(ge=0, lt=1), _read("damping_ratio")], ...] = Field(
+    omega: tuple[Annotated[Finite, within(FREQUENCIES)], ...]
+    amplitude: tuple[Finite, ...]
+    damping_ratio: tuple[Annotated[Finite, Field(ge=0, lt=1)], ...] = Field(
         (), validate_default=True
     )
     circles: tuple[Annotated[Count, Field(ge=0)], ...] = Field((), validate_default=True)
-    tangential: tuple[Annotated[Finite, _read("tangential")], ...] = ()
+    tangential: tuple[Finite, ...] = ()
     static_compliance: Annotated[Positive, Unit("m/N")] | None = None
     radii: tuple[Annotated[Positive, Unit("m")], ...] = ()
     shapes: tuple[tuple[Finite, ...], ...] = ()
@@ -98,11 +106,7 @@ class Disc(Strict):
 
     if TYPE_CHECKING:  # for type checkers: any sequence of numbers will do
 
-        def __init__(  # noqa: PLR0913
-            self, *, diameters: Column, omega: Column, amplitude: Column, damping_ratio: Column = ...,
-            circles: Column = ..., tangential: Column = ..., static_compliance: Quantity | None = ...,
-            radii: Column = ..., shapes: Iterable[Column] = ...,
-        ) -> None: ...  # fmt: skip
+        def __init__(self, **columns: Any) -> None: ...
 
     @model_validator(mode="after")
     def _consistent(self) -> Self:
@@ -183,15 +187,12 @@ class Disc(Strict):
         """Return the name of the number of a mode, such as omega_2_0."""
         return f"{column}_{self.diameters[i]}_{self.circles[i]}"
 
-    def with_numbers(self, **changes: Quantity) -> Disc:
-        """The disc with some of its `numbers` changed, also to texts with units."""
-        faults: list[Fault] = []
-        numbers = {name: mode_number_in_si(name, x, faults) for name, x in changes.items()}
-        raise_faults(faults)
+    def with_numbers(self, **changes: float) -> Disc:
+        """The disc with some of its `numbers` changed."""
         columns: dict[str, list[float]] = {}
         for column in UNCERTAIN:
             given = enumerate(getattr(self, column))
-            columns[column] = [numbers.get(self._name_of(column, i), value) for i, value in given]
+            columns[column] = [changes.get(self._name_of(column, i), value) for i, value in given]
         return self.replace(**columns)
 
     def first(self, count: int) -> Disc:

@@ -6,30 +6,29 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import lru_cache, partial
 from itertools import product
+from typing import Annotated, Literal
 
 import numpy as np
+from pydantic import Field
 
 from disc_model.arrays import Array
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import coupled_frequencies, mode_arrays
 from disc_model.disc.thin_plate import shortest_wave
-from disc_model.display import Summarised, counted, number_text
-from disc_model.errors import DiscModelError, require, rule_of_choice
+from disc_model.display import Summarised, counted
+from disc_model.errors import DiscModelError
 from disc_model.parameters import Parameters
 from disc_model.stability.floquet import floquet
 from disc_model.stability.sliding import steady_sliding
-from disc_model.units import is_number
+from disc_model.units import Finite, checked
 
 Size = tuple[int, ...]
 """Size of a model: (diameters, circles), or (modes,) of a table."""
 
 FREQUENCIES = "frequencies"
-SLIDING = "sliding_growth"
-TOLERANCES = {FREQUENCIES: 1e-3, "growth": 1e-2, SLIDING: 1e-2}
-"""Quantities by which modes may be chosen, and their default relative tolerances."""
 # Least tolerance, relative: the coupled frequencies of `RICH` change as much with more modes (5e-5 as
 # published, 2e-4 orthonormal, against 30 diameters and 8 circles).
 TRUSTED = 1e-4
@@ -59,34 +58,22 @@ class ModeChoice(Summarised):
     tolerance: float
     error: float
     rich: Size
-    errors: Mapping[Size, float] = field(default_factory=dict)
+    errors: Mapping[Size, float]
 
     @property
     def modes(self) -> int:
         """Number of real-valued modes: a pair, cosine and sine, counts as two."""
-        p = self.parameters
-        if p.disc is None:
-            return real_modes(p.n_diameters, p.n_circles)
-        return sum(2 if l > 0 else 1 for l in p.disc.diameters)
+        return int(np.sum(1 + (mode_arrays(self.parameters).diameters > 0)))
 
     def __repr__(self) -> str:
-        at = ""
-        if self.quantity != FREQUENCIES:  # which are those at rest
-            at = f" at {number_text(self.parameters.Omega, 'rad/s')}"
-        return f"ModeChoice({self._size}, by {self.quantity}{at}, error {self.error:.2g})"
-
-    @property
-    def _size(self) -> str:
-        """The size of the model in words."""
-        p = self.parameters
         modes = counted(self.modes, "real mode")
-        if p.disc is not None:
-            return modes
-        return f"{counted(p.n_diameters, 'diameter')}, {counted(p.n_circles, 'circle')}: {modes}"
+        return f"ModeChoice({modes}, by {self.quantity}, error {self.error:.2g})"
 
     def _summary(self) -> Iterator[tuple[str, object]]:
         p = self.parameters
-        yield "modes", self._size
+        if p.disc is None:
+            yield "diameters and circles", f"{p.n_diameters}, {p.n_circles}"
+        yield "real modes", self.modes
         yield "chosen by", self.quantity
         if self.quantity != FREQUENCIES:
             yield "at", f"{p.Omega:g} rad/s, {p.N:g} N; other speeds may need more modes"
@@ -99,18 +86,15 @@ class ModeChoice(Summarised):
 
 
 class UndecidedModes(DiscModelError):
-    """No number of modes could be chosen; `errors` are those of `ModeChoice`."""
-
-    def __init__(self, message: str, errors: Mapping[Size, float] | None = None) -> None:
-        super().__init__(message)
-        self.errors = errors or {}
+    """No number of modes could be chosen; the message has the least error."""
 
 
+@checked
 def choose_modes(
-    case: Parameters | Mapping[str, object],
-    tolerance: float | None = None,
+    case: Parameters,
+    tolerance: Annotated[Finite, Field(ge=TRUSTED)] | None = None,
     *,
-    quantity: str = FREQUENCIES,
+    quantity: Literal["frequencies", "growth", "sliding_growth"] = "frequencies",
 ) -> ModeChoice:
     """Find the fewest real-valued modes with which a quantity's error is within ``tolerance``.
 
@@ -119,8 +103,8 @@ def choose_modes(
 
     Parameters
     ----------
-    case : `Parameters`, or a mapping of their values; n_diameters and n_circles are ignored.  With
-        ``contact_compliance="residual"`` each model has the flexibility of the modes that it leaves out
+    case : the case, whose n_diameters and n_circles are ignored.  With ``contact_compliance="residual"`` each model has
+        the flexibility of the modes that it leaves out
     tolerance : relative, at least 1e-4; None is 1e-3 for frequencies, 1e-2 for a growth rate
     quantity : "frequencies", the coupled frequencies of disc and slider at rest up to twice the lowest one of the disc,
         compared with those of 20 diameters and 6 circles; "growth", the growth rate of the stick-slip cycle, which
@@ -136,7 +120,7 @@ def choose_modes(
     Raises
     ------
     ParameterError
-        If a value of the case breaks a rule, the quantity is unknown, or the tolerance is below 1e-4.
+        If the quantity is unknown, or the tolerance is below 1e-4.
     disc_model.mode_choice.UndecidedModes
         If no model meets the tolerance, or too few modes of a table are left to tell. The growth rate does not
         converge where friction acts on the surface at a point: give the arc of the pad.
@@ -144,42 +128,25 @@ def choose_modes(
     Examples
     --------
     >>> import disc_model as dm
-    >>> dm.choose_modes({"N": 385, "Omega": 15.1}, 1e-3).parameters.n_diameters
+    >>> dm.choose_modes(dm.Parameters(N=385, Omega=15.1), 1e-3).parameters.n_diameters
     3
     """
-    known = isinstance(quantity, str) and quantity in TOLERANCES
-    require((known, "quantity", quantity, rule_of_choice(TOLERANCES)))
-    asked = TOLERANCES[quantity] if tolerance is None else tolerance
-    is_case = isinstance(case, Parameters | Mapping)
-    trusted = is_number(asked) and TRUSTED <= asked < math.inf
-    require(
-        (is_case, "case", case, "must be Parameters, or a mapping of names to values"),
-        (trusted, "tolerance", tolerance, f"must be finite and >= {TRUSTED:g}"),
-    )
-    if not isinstance(case, Parameters):
-        sizes = ("n_diameters", "n_circles")
-        case = Parameters.model_validate({name: x for name, x in case.items() if name not in sizes})
+    asked = tolerance or (1e-3 if quantity == FREQUENCIES else 1e-2)
     error_between = frequency_error if quantity == FREQUENCIES else partial(_rate_error, quantity)
     errors: dict[Size, float] = {}
     for size, *larger in _compared(case, quantity):
         chosen = _resized(case, size)
         errors[size] = max(error_between(chosen, _resized(case, other)) for other in larger)
         if errors[size] <= asked:
-            return ModeChoice(chosen, quantity, float(asked), errors[size], larger[-1], errors)
-    raise UndecidedModes(
-        f"n_diameters: undecided: {_why_undecided(case, quantity, errors)}", errors
-    )
-
-
-def _why_undecided(p: Parameters, quantity: str, errors: Mapping[Size, float]) -> str:
-    """How near the models came to each other, and what may help."""
+            return ModeChoice(chosen, quantity, asked, errors[size], larger[-1], errors)
     advice = "enlarge the tolerance"
-    if p.disc is not None:
+    if case.disc is not None:
         advice = "give a table with more modes, or a larger tolerance"
-    elif p.friction_offset != 0 and p.contact_arc == 0:
+    elif case.friction_offset != 0 and case.contact_arc == 0:
         advice = "friction on the surface at a point does not converge: give contact_arc"
     least = min(errors.values(), default=math.inf)
-    return f"no model has the {quantity} of larger ones, the best errs by {least:.2g}; {advice}"
+    best = f"no model has the {quantity} of larger ones, the best errs by {least:.2g}"
+    raise UndecidedModes(f"n_diameters: undecided: {best}; {advice}")
 
 
 def _compared(p: Parameters, quantity: str) -> Iterator[tuple[Size, ...]]:
@@ -193,11 +160,14 @@ def _compared(p: Parameters, quantity: str) -> Iterator[tuple[Size, ...]]:
             count += 1 if quantity == FREQUENCIES else (count + 1) // 2
     elif quantity == FREQUENCIES:
         every = product(range(RICH[0] + 1), range(RICH[1] + 1))
-        for size in sorted(every, key=lambda size: (real_modes(*size), size[1]))[:-1]:
+        # by the number of real modes, of which pairs are two
+        for size in sorted(every, key=lambda size: ((size[1] + 1) * (2 * size[0] + 1), size[1]))[
+            :-1
+        ]:
             yield size, RICH
     else:
-        candidates = CANDIDATES + (LARGER if quantity == SLIDING else ())
-        yield from (((l, c), (2 * l, c), (2 * l, c + 1)) for l, c in candidates)
+        for l, c in CANDIDATES + (LARGER if quantity == "sliding_growth" else ()):
+            yield (l, c), (2 * l, c), (2 * l, c + 1)
 
 
 # ---- Models of a case
@@ -208,11 +178,6 @@ def _resized(p: Parameters, size: Size) -> Parameters:
     if p.disc is not None:
         return p.replace(disc=p.disc.first(*size))
     return p.replace(n_diameters=size[0], n_circles=size[1])
-
-
-def real_modes(diameters: int, circles: int) -> int:
-    """Number of real modes of a model: pairs count as two."""
-    return (circles + 1) * (2 * diameters + 1)
 
 
 def frequency_error(p: Parameters, rich: Parameters) -> float:
@@ -244,4 +209,4 @@ def _rate_error(quantity: str, p: Parameters, larger: Parameters) -> float:
 @lru_cache(maxsize=128)  # a larger model may be a candidate later
 def _growth_rate(quantity: str, p: Parameters) -> float:
     """Growth rate of the stick-slip cycle or of steady sliding, 1/s; nan without it."""
-    return float((steady_sliding(p) if quantity == SLIDING else floquet(p)).growth_rate)
+    return float((floquet(p) if quantity == "growth" else steady_sliding(p)).growth_rate)

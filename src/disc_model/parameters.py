@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
+import json
 import math
 import warnings
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self
 
-import pydantic
 from pydantic import AfterValidator, BeforeValidator, Field, model_validator
 
 from disc_model.errors import Fault, ImplausibleValue, as_text, require
 from disc_model.modal_disc import Disc
-from disc_model.modal_disc import Quantity as Quantity
-from disc_model.provenance import canonical_json, content_key
+from disc_model.provenance import content_key
 from disc_model.units import UNITS, Count, Finite, Real, Strict, must
 
 RESIDUAL = "residual"  # value of ``contact_compliance`` that stands for the static flexibility of the modes left out
@@ -21,16 +20,12 @@ NUMBER_OR_WORD = ("contact_compliance", "friction_offset")  # parameters that ar
 SURFACE = "surface"  # value of ``friction_offset`` by which friction acts on the disc's surface
 
 # parameters in rules that relate several
-RELATED = ("mu_s", "mu_k", "a", "b", "r_0", "E", "h", "nu", "disc")
+RELATED = ("mu_s", "mu_k", "a", "b", "r_0", "E", "h", "nu")
 # parameters of the plate, which have no meaning for a disc that is given by its modes
 PLATE = (
     *("D_star", "E", "a", "b", "h", "nu", "rho"),
     *("n_diameters", "n_circles", "normalization", "stretching"),
 )
-PLATE_NAME = "plate"
-"""What a disc is called that is given by its sizes and material, beside discs given by their modes."""
-FORMAT: Literal[1] = 1
-"""Of the texts that identify cases and batches; another number makes other hashes."""
 
 MOST_DAMPED = 0.05  # damping ratio above which it is doubted: discs of metal have 0.0001 to 0.01
 SOFTEST = 1e9  # Pa, Young's modulus below which it is doubted
@@ -196,14 +191,6 @@ class Parameters(Strict):
 
         def __init__(self, **values: Any) -> None: ...
 
-    @pydantic.model_serializer(mode="wrap")
-    def _without_stretching(self, handler: Any) -> dict[str, Any]:
-        """Leave out a plate that does not stretch, so that older content addresses stay valid."""
-        values: dict[str, Any] = handler(self)
-        if values.get("stretching") == "none":
-            del values["stretching"]
-        return values
-
     @model_validator(mode="after")
     def _consistent(self) -> Self:
         """Check the rules between parameters, what a disc excludes, and that the plate has one
@@ -257,9 +244,10 @@ class Parameters(Strict):
     def _check_related(self) -> None:
         """Refuse parameters that exceed another one, and a flexural rigidity beyond the range of
         floats."""
-        mu_s, mu_k, a, b, r_0, E, h, nu = (getattr(self, name) for name in RELATED[:8])
-        if None in (mu_s, mu_k, a, b, r_0, E, h, nu):
+        values = [getattr(self, name) for name in RELATED]
+        if None in values:
             return
+        mu_s, mu_k, a, b, r_0, E, h, nu = values
         rigidity = E * (h * h * h) / 12 / (1 - nu**2)  # a power would not overflow to inf
         finite = f"must give a finite, positive E h^3/12/(1-nu^2), not {as_text(rigidity)}"
         plate = self.disc is None  # a disc given by its modes has other radii
@@ -306,21 +294,20 @@ class Parameters(Strict):
 
     @property
     def canonical(self) -> dict[str, Any]:
-        """The values that identify a case: all of them, but for those of the plate if the disc is
-        given by its modes."""
-        return self.model_dump(exclude={*PLATE} if self.disc is not None else None)
+        """The values that identify a case, as JSON has them: all of them, but for those of the plate if the
+        disc is given by its modes."""
+        return self.model_dump(mode="json", exclude={*PLATE} if self.disc is not None else None)
 
     @property
     def canonical_json(self) -> str:
         """The values as JSON with sorted keys, equal for equal parameters however they were
         written."""
-        return canonical_json(self.canonical)
+        return json.dumps(self.canonical, sort_keys=True)
 
     @property
     def key(self) -> str:
-        """Stable content hash: the first 12 hexadecimal digits of the sha256 of
-        `canonical_json` with the format of these texts."""
-        return content_key(canonical_json({"format": FORMAT, **self.canonical}))
+        """Content hash: the first 12 hexadecimal digits of the sha256 of `canonical_json`."""
+        return content_key(self.canonical_json)
 
     @classmethod
     def unit(cls, name: str) -> str:

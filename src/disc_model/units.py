@@ -52,12 +52,6 @@ class Unit:
     name: Units = ""
     of: str = ""
 
-    def __get_pydantic_json_schema__(self, schema: Any, handler: Any) -> dict[str, Any]:
-        described = dict(handler(schema))
-        if isinstance(self.name, str):
-            described["unit"] = self.name
-        return described
-
 
 UNITS: dict[str, str] = {}  # units of parameters by their names, filled by `disc_model.parameters`
 
@@ -330,6 +324,15 @@ P = ParamSpec("P")
 T = TypeVar("T")
 
 
+def arguments_of(function: Callable[..., Any], base: type[Strict] = Strict) -> type[Strict]:
+    """A model of the arguments of a function of a case but for the case, with their types and defaults."""
+    hints = get_type_hints(function, include_extras=True)
+    fields: dict[str, Any] = {}
+    for each in [*inspect.signature(function).parameters.values()][1:]:
+        fields[each.name] = (hints[each.name], ... if each.default is each.empty else each.default)
+    return create_model(function.__name__, __base__=base, **fields)
+
+
 def checked(function: Callable[P, T]) -> Callable[P, T]:
     """A function of a case whose other arguments are read by their types, as the fields of a `Strict`
     model are: numbers with units become those of SI, and wrong ones raise a `ParameterError`.
@@ -345,22 +348,16 @@ def checked(function: Callable[P, T]) -> Callable[P, T]:
     0.006
     """
     signature = inspect.signature(function)
-    hints = get_type_hints(function, include_extras=True)
-    first, *others = signature.parameters.values()
-    fields: dict[str, Any] = {
-        each.name: (hints[each.name], ... if each.default is each.empty else each.default)
-        for each in others
-    }
-    model = create_model(function.__name__, __base__=Strict, **fields)
+    first = next(iter(signature.parameters))
+    kind = get_type_hints(function)[first]
+    model = arguments_of(function)
 
     @functools.wraps(function)
     def call(*args: P.args, **given: P.kwargs) -> T:
         asked = signature.bind(*args, **given).arguments
-        case = asked.pop(first.name)
-        kind = hints[first.name]
+        case = asked.pop(first)
         if not isinstance(case, kind):
-            raise ParameterError(Fault.of((first.name,), case, f"must be {kind.__name__}"))
-        read = dict(model(**asked))
-        return function(case, **read)  # type: ignore[call-arg, arg-type]
+            raise ParameterError(Fault.of((first,), case, f"must be {kind.__name__}"))
+        return function(case, **dict(model(**asked)))  # type: ignore[call-arg, arg-type]
 
     return call

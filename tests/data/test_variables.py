@@ -16,7 +16,6 @@ from disc_model.data.variables import (
     CycleStatus,
     Outcome,
     attributes,
-    attributes_of_number,
     values_text,
 )
 from disc_model.errors import Status
@@ -34,7 +33,7 @@ from disc_model.simulation.result import EVENT_ROW, SAMPLE_ROW
     ],
 )  # fmt: skip
 def test_attributes(name: str, unit: str, text: str, comment: str | None) -> None:
-    found = attributes(name) if name != "omega_2_0" else attributes_of_number(name)
+    found = attributes(name)
     assert (found["units"], found["long_name"], found.get("comment")) == (unit, text, comment)
 
 

@@ -116,10 +116,3 @@ def test_refusals():
         Parameters(N=1, Omega=1, disc=disc, stretching="clamped")
     with pytest.raises(ParameterError, match="must be none for more than 52 coordinates"):
         stretched(P.replace(n_diameters=30))
-
-
-def test_a_plate_that_does_not_stretch_keeps_its_key():
-    plain = Parameters(N=385, Omega=15.1)
-    assert Parameters(N=385, Omega=15.1, stretching="none").key == plain.key
-    assert "stretching" not in plain.canonical
-    assert Parameters(N=385, Omega=15.1, stretching="free").canonical["stretching"] == "free"

@@ -89,7 +89,7 @@ def study_of(
         return found(quantity, cells, **along)
 
     def result(case: Parameters, **options: Any) -> xr.Dataset:
-        kicks = options["start"].perturbation if "start" in options else {}
+        kicks = dict(options["start"]) if "start" in options else {}
         place = []
         for name, values in axes.items():
             value = getattr(case, name, kicks.get(name.removeprefix("perturbation_"), 0))
@@ -490,12 +490,12 @@ def bifurcation() -> Example:
     exponents = np.array([[-0.11], [-0.12], [-0.02]])
     columns = {
         "psi": psi,
-        "phase": np.full((3, 2), "slip"),
+        "phase": np.full((3, 2), "separation"),
         "settled": ["settled", "settled", "undecided"],
         "kind": ["separating", "separating", "undecided"],
         "period_events": [1, 2, 0],
     }
-    options = {"section": "stroboscopic", "samples": 2, "transient": 9, "max_transient": 90}
+    options = {"samples": 2, "transient": 9, "max_transient": 90}
     numbers = {
         "exponent": exponents,
         "exponent_error": 0 * exponents + 0.001,
@@ -516,7 +516,7 @@ def bifurcation() -> Example:
         {"x": "Omega", "overlays": {"lyapunov": "l"}, "paper_cases": places},
         {"study": study, "lyapunov": other},
         (
-            Shown(0, "y", "Angle ψ, once per turn of the drive", psi, "rad", "linear"),
+            Shown(0, "y", "Angle ψ", psi, "rad", "linear"),
             Shown(0, "x", SPEED, [*SPEEDS, 13.5], "rad/s", "linear"),
             Shown(1, "y", "Events in a period", [1, 2], "", "log"),
             Shown(2, "x", SPEED, SPEEDS, "rad/s", "linear"),

@@ -26,7 +26,7 @@ from workflow.paper.measures import CaseView
 ROOT = Path(__file__).parents[2]
 SPECS = {
     name: spec
-    for name, spec in load_study(ROOT / "config" / "paper.yaml").specs.items()
+    for name, spec in load_study(ROOT / "config" / "paper.yaml").cases.items()
     if spec.parameters.normalization == "as_published"
 }
 STORIES = Path(__file__).with_name("stories.yaml")

@@ -11,8 +11,7 @@ import pytest
 import xarray as xr
 
 from disc_model import Parameters, Poincare, Ramp, Result, Window, simulate
-from disc_model.data.dataset import MissingFile, UnreadableFile
-from disc_model.data.tables import load_tables
+from disc_model.data.dataset import MissingFile, UnreadableFile, load_tree, save
 from tests.refusals import refusal
 
 P = Parameters(N=200, Omega=50, n_diameters=1)
@@ -79,10 +78,8 @@ def test_a_result_stays_what_it_is_in_later_runs() -> None:
 def test_files_have_units_and_the_case(tmp_path: Path) -> None:
     RUN.save(tmp_path / "run.nc")
     tree = xr.open_datatree(tmp_path / "run.nc")
-    columns = [x for name in ("final_state", "events") for x in tree[name].data_vars.values()]
-    assert {"a", "mode_amplitudes", "direction"} < {str(column.name) for column in columns}
+    columns = tree["events"].to_dataset().drop_vars("direction").data_vars.values()
     assert [x.name for x in columns if "long_name" not in x.attrs] == []
-    assert tree["final_state"]["alpha"].attrs["units"] == "kg0.5 m s-1"
     for name in ("late", "events"):
         assert tree[name].attrs["parameters"] == RUN.parameters.canonical_json
 
@@ -91,41 +88,38 @@ def test_files_have_units_and_the_case(tmp_path: Path) -> None:
     ("place", "other"),
     [
         *((place, None) for place in ("status", "windows", "final_state", "tol", "u_0")),
-        (("final_state", "phase"), ...), (("parameters", "N"), -1), (("windows", "late"), 3),
+        (("final_state", "phase"), ...), (("final_state", "a"), ...), (("parameters", "N"), -1),
+        (("windows", "late"), 3),
         ("status", "fine"), ("more", 1),
     ],
 )  # fmt: skip
-def test_a_file_with_another_header_is_unreadable(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, place: Any, other: Any
-) -> None:
+def test_a_file_with_another_header_is_unreadable(tmp_path: Path, place: Any, other: Any) -> None:
     path = tmp_path / "r.nc"
     RUN.save(path)
-    text, tables = load_tables(path)
-    header = json.loads(text)
+    tree = load_tree(path)
+    header = json.loads(tree.attrs["result"])
     *outer, name = [place] if isinstance(place, str) else place
     part = header[outer[0]] if outer else header
     part[name] = other
     if other is ...:
         del part[name]
-    monkeypatch.setattr(
-        "disc_model.data.tables.load_tables", lambda _: (json.dumps(header), tables)
-    )
+    tree.attrs["result"] = json.dumps(header)
+    save(tree, path)
     with pytest.raises(UnreadableFile, match="cannot be read: "):
         Result.load(path)
 
 
-@pytest.mark.parametrize("missing", ["late", ("events", "time"), ("final_state", "a")])
-def test_so_is_one_without_a_column(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, missing: Any
-) -> None:
+@pytest.mark.parametrize("missing", ["late", "events/time"])
+def test_so_is_one_without_a_column(tmp_path: Path, missing: str) -> None:
     path = tmp_path / "r.nc"
     RUN.save(path)
-    text, tables = load_tables(path)
-    if isinstance(missing, str):
-        del tables[missing]
+    tree = load_tree(path)
+    group, _, column = missing.partition("/")
+    if column:
+        tree[group].dataset = tree[group].to_dataset().drop_vars(column)
     else:
-        del tables[missing[0]][missing[1]]
-    monkeypatch.setattr("disc_model.data.tables.load_tables", lambda _: (text, tables))
+        del tree[group]
+    save(tree, path)
     with pytest.raises(UnreadableFile, match="cannot be read: "):
         Result.load(path)
 

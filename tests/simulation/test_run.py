@@ -277,7 +277,7 @@ def test_what_is_rounding_before_a_run_up_is_no_energy(offset: Any) -> None:
 
 
 @pytest.mark.parametrize(
-    ("times", "fault"), [([0.2, 0.1], "times=.*must be finite and ascend"), (-1.0, "times=-1: must be >= 0")]
+    ("times", "fault"), [([0.2, 0.1], "times=.*must be >= 0.*and ascend"), (-1.0, "times=.*-1.*: must be >= 0")]
 )  # fmt: skip
 def test_states_at_times_that_cannot_be_are_refused(times: Any, fault: str) -> None:
     with refusal(fault):

@@ -37,7 +37,7 @@ def test_a_start_is_a_state() -> None:
 @pytest.mark.parametrize(
     ("given", "fault"),
     [
-        ({"start": {"v": 1.0}}, "v='v': must be 'u', 'u_velocity' or 'f'"),
+        ({"start": {"v": 1.0}}, "start.v=1: unknown key"),
         ({"prerun": {"parameters": {"Omga": 3}, "time": 1}}, "prerun.parameters.Omga=3"),
         ({"prerun": {"parameters": {"n_diameters": 2}, "time": 1}}, "prerun.parameters.n_diam"),
         ({"prerun": {"parameters": {"mu_k": 0.9}, "time": 1}}, "mu_k=0.9"),

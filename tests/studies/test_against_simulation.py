@@ -248,8 +248,7 @@ def test_a_steel_disc_slides_steadily_whoever_is_asked() -> None:
         damping_ratio=5e-4, normalization="orthonormal", friction_offset="surface",
     )  # fmt: skip
     assert studied(p, "outcome", horizon=80)["outcome"] == "steady_sliding"
-    for section in ("event", "stroboscopic"):
-        found = studied(p, "bifurcation", section=section, transient=80, max_transient=80)
-        assert found["kind"] == "steady_sliding"
-        assert found["settled"] == "settled"
-        assert found.attrs["message"] == ""
+    found = studied(p, "bifurcation", transient=80, max_transient=80)
+    assert found["kind"] == "steady_sliding"
+    assert found["settled"] == "settled"
+    assert found.attrs["message"] == ""

@@ -94,11 +94,11 @@ def test_cases_inherit_what_they_do_not_say() -> None:
             "B": {**CASE, "tol": 1e-8, "record": {"windows": {"late": None}}},
         },
     }
-    specs = parsed(raw).specs
+    specs = parsed(raw).cases
     assert (specs["A"].parameters.N, specs["B"].parameters.N) == (385, 300)
     assert (specs["A"].tol, specs["B"].tol) == (1e-9, 1e-8)
-    assert [*specs["A"].sections] == ["late"]
-    assert not specs["B"].sections
+    assert [*specs["A"].record.sections] == ["late"]
+    assert not specs["B"].record.sections
 
 
 def test_a_table_of_a_disc_is_read_beside_the_file(tmp_path: Path) -> None:
@@ -107,9 +107,9 @@ def test_a_table_of_a_disc_is_read_beside_the_file(tmp_path: Path) -> None:
     )
     axes = {"disc": ["d.csv"], "N": [100]}
     study = parsed({**GRID, "base": {"Omega": 10}, "axes": axes}, tmp_path)
-    case, _ = study.case
-    assert case.disc is not None
-    assert case.disc.diameters == (1, 2)
+    disc = study.case.disc
+    assert disc is not None
+    assert disc.diameters == (1, 2)
 
 
 def test_a_figure_may_show_the_grid_of_another_file(tmp_path: Path) -> None:

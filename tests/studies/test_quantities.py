@@ -77,7 +77,7 @@ TABLE: list[tuple[str, Parameters, dict[str, Any], dict[str, Any]]] = [
     (
         "bifurcation",  # once for each of the two separations in a period
         P.replace(Omega=14.5),
-        {"transient": 60, "section": "event", "samples": 4, "start": SEPARATED},
+        {"transient": 60, "samples": 4, "start": SEPARATED},
         {"psi": [0.0544399, 0.0719417] * 2, "period_events": 2, "kind": "separating"},
     ),
     (
@@ -180,17 +180,6 @@ FAULTS: list[tuple[str, dict[str, Any], str]] = [
     ("hysteresis", SWEEP | {"dwell": 0.1}, "evaluation_time=5 must be <= dwell=0.1"),
     ("hysteresis", SWEEP | {"max_dwell": 5}, "max_dwell=5 must be >= dwell=10"),
     ("hysteresis", SWEEP | {"step": 3}, "must be a multiple of step=3"),
-    ("hysteresis", SWEEP | {"name": "Nn"}, "name='Nn': must be a number of the case"),
-    (
-        "hysteresis",
-        SWEEP | {"name": "h", "bounds": (1e-3, 2e-3), "step": 1e-3},
-        "shapes of the modes",
-    ),
-    (
-        "hysteresis",
-        SWEEP | {"name": "mu_k", "bounds": (0.2, 0.6), "step": 0.2},
-        "must be <= mu_s=0.4",
-    ),
     ("branches", SWEEP | {"sweep_from": 21}, "sweep_from=21 must be <= the greatest value, 20"),
     ("locking", {"record": 5, "max_record": 4}, "record=5 must be <= max_record=4"),
     (
@@ -221,11 +210,7 @@ FAULTS: list[tuple[str, dict[str, Any], str]] = [
     ("sensitivity", {"distributions": {"k": NARROW | {"low": 2}}}, "low=2 must be < high=1.0001"),
     ("sensitivity", {"distributions": {"kk": NARROW}}, "must be of a parameter that is a number"),
     ("neutral_curves", {"bounds": (1, 2), "lines": [1], "x": "N"}, "x and y must differ"),
-    (
-        "bifurcation",
-        {"transient": 500, "section": "event"},
-        "max_transient=480 must be >= transient=500",
-    ),
+    ("bifurcation", {"transient": 500}, "max_transient=480 must be >= transient=500"),
 ]
 """Options that cannot be, and what is said of them."""
 
@@ -306,20 +291,6 @@ def test_a_critical_speed_that_is_not_between_the_bounds_says_why(
     assert bool(found["at_lower_bound"].values.any()) == (speed == 12)
 
 
-@pytest.mark.parametrize(("step", "simulations"), [(0.25, 6), (0.05, 5), (1, 8)])
-def test_the_precision_follows_the_step(
-    step: float, simulations: int, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """To 0.1 rad/s, or the next smaller part of the step."""
-    monkeypatch.setattr(
-        "disc_model.stability.follower.find_outcome", moving({13 + step / 100: 10.0})
-    )
-    found = dm.critical_speed(P, (13 - 2 * step, 13 + 2 * step), step=step)
-    part = step / math.ceil(step / 0.1 - 1e-9)
-    assert found["critical_speed"].item() == pytest.approx(13 + part)
-    assert found["simulations"].item() == simulations
-
-
 def test_what_has_no_room_is_told() -> None:
     modes = dm.sliding_modes(FALLING, bounds=(10, 50), step=20, modes=4)
     assert message_of(modes) == "10 were found along mode, which has room for 4"
@@ -384,17 +355,6 @@ def test_a_sweep_has_an_onset_and_an_end_or_says_why_not(
     assert found["offset_speed"].item() == pytest.approx(offset, nan_ok=True)
     assert said in message_of(found)
     assert bool(message_of(found)) == bool(said)
-
-
-@pytest.mark.compiled
-def test_a_sweep_of_the_preload_goes_on_from_load_to_load() -> None:
-    stays = {"dwell": 10, "max_dwell": 40, "evaluation_time": 1, "tol": 1e-8}
-    sweep = dm.hysteresis(P, (300, 420), name="N", step=40, **stays)
-    assert sweep["sweep_N"].values.tolist() == [300, 340, 380, 420]
-    assert sweep["sweep_N"].attrs["units"] == sweep["onset"].attrs["units"] == "N"
-    assert sweep["separation_rate"].sel(direction="up").values[0] == 0
-    assert (sweep["separation_rate"].sel(direction="down").values[:3] > 100).all()
-    assert "still lost on the way down at the lower bound, N = 300 N" in message_of(sweep)
 
 
 # ---- Basins
@@ -716,7 +676,7 @@ def test_a_motion_locks_only_with_stick_and_separation(
 def test_a_transient_is_doubled_until_the_motion_has_settled(
     case: Parameters, kind: str, transient: float
 ) -> None:
-    found = dm.bifurcation(case, section="event", transient=2, max_transient=600, samples=5)
+    found = dm.bifurcation(case, transient=2, max_transient=600, samples=5)
     assert found["kind"].item() == kind
     assert found["transient_time"].item() == transient
     assert message_of(found) == ""
@@ -724,17 +684,6 @@ def test_a_transient_is_doubled_until_the_motion_has_settled(
 
 
 @pytest.mark.compiled
-def test_samples_once_a_turn_are_those_of_the_run() -> None:
-    case = Parameters(N=200, Omega=20, n_diameters=0)
-    turn = 2 * np.pi / case.Omega
-    found = dm.bifurcation(case, transient=1.7 * turn, samples=3)
-    turns = {"turns": dm.Poincare()}
-    every = dm.simulate(case, 4.5 * turn, turns)["turns"]
-    for name in ("psi", "u", "P", "w_point"):
-        # both runs stop elsewhere, which leaves the error of events
-        assert found[name].values == pytest.approx(every[name].values[2:5], rel=1e-6, abs=1e-9)
-
-
 def test_columns_are_those_of_steady_sliding_at_each_value() -> None:
     """With mu_k, mu_s rises where that would be larger."""
     found = dm.sliding_modes(FALLING, name="mu_k", bounds=(0.1, 0.5), step=0.2)

@@ -34,9 +34,9 @@ from disc_model.simulation.named_case import run_case
 from disc_model.simulation.case import CaseSpec
 from tests.references import stored
 
-windows = (("history", Window(start=0, stop=1, rate=1000)),)
+record = {"windows": {"history": Window(start=0, stop=1, rate=1000)}, "poincare": Poincare(), "events": {"stop": 1.0}}
 p = Parameters(N=385, Omega=15.1)
-spec = CaseSpec(parameters=p, t_end=1.0, windows=windows, poincare=Poincare(), events=(0.0, 1.0), audit_every_step=True)
+spec = CaseSpec(parameters=p, t_end=1.0, record=record)
 save(run_case(spec), sys.argv[1] + "/grows.nc")
 after = stored.load("C")
 p = Parameters(**after["parameters"])

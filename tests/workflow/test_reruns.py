@@ -115,7 +115,7 @@ def test_spelling_order_and_times_run_nothing(project: Project) -> None:
     ("source", "jobs"),
     [
         ("src/disc_model/engine/loop.py", everything),
-        ("src/disc_model/studies/quantities/sliding.py", everything),
+        ("src/disc_model/studies/quantities/sliding_modes.py", everything),
         ("src/disc_model/studies/study.py", lambda _: set()),
         ("src/disc_model/figures/runs.py", lambda _: FIGURES | PLOT),
         ("workflow/paper/ledger.py", lambda _: {"check_claims"} | TABLES),

@@ -269,4 +269,4 @@ def required_case(cases: Mapping[str, CaseView], name: str, until: float) -> Cas
 def _start(stated: Mapping[str, Any]) -> tuple[Any, Any]:
     """Return what makes a start another one: parameters of a run before it, and perturbations."""
     prerun = stated.get("prerun") or {}
-    return prerun.get("parameters"), stated.get("perturbation") or {}
+    return prerun.get("parameters"), [stated.get(name, 0) for name in ("u", "u_velocity", "f")]

@@ -6,12 +6,12 @@ from workflow.paper import JUDGING_TABLES, SCANS, SURVIVAL_GRIDS, TABLE_CASES
 SCANNED = {name: grid_file(name) for name in SCANS if name in GRIDS}
 # A change of the ledger judges again; what results are is seen by their files.
 PAPER_CODE = code_of("workflow/paper", "src/disc_model/data")
-MADE = [table for table, cases in TABLE_CASES.items() if STUDY.specs.keys() >= {*cases}]
+MADE = [table for table, cases in TABLE_CASES.items() if STUDY.cases.keys() >= {*cases}]
 
 
 rule check_claims:
     input:
-        cases=lambda w: sorted(map(case_file, STUDY.specs)),
+        cases=lambda w: sorted(map(case_file, STUDY.cases)),
         scans=list(SCANNED.values()),
         tables=[
             f"{RESULTS}/tables/{table}.csv"
@@ -85,8 +85,8 @@ rule show_model:
 rule compare_normalisations:
     # Needs the paper's cases under both normalisations.
     input:
-        published=collect("results/paper/cases/{x}.nc", x=STUDY.specs),
-        orthonormal=collect("results/paper_orthonormal/cases/{x}.nc", x=STUDY.specs),
+        published=collect("results/paper/cases/{x}.nc", x=STUDY.cases),
+        orthonormal=collect("results/paper_orthonormal/cases/{x}.nc", x=STUDY.cases),
     output:
         csv="results/paper/normalisation.csv",
         md="results/paper/normalisation.md",
@@ -109,7 +109,7 @@ rule compare_normalisations:
 rule judge_survival:
     # Needs the motions and grids of config/survival.yaml.
     input:
-        cases=collect("results/survival/cases/{x}.nc", x=STUDY.specs),
+        cases=collect("results/survival/cases/{x}.nc", x=STUDY.cases),
         grids=[f"results/{name}/{name}.nc" for name in SURVIVAL_GRIDS],
         png="results/survival_growth/figures/survival_growth.png",
     output:

@@ -12,7 +12,7 @@ rule simulate_case:
     conda:
         "../envs/disc_model.yaml"
     params:
-        case=lambda w: STUDY.specs[w.case].canonical,
+        case=lambda w: STUDY.cases[w.case].canonical,
         code=physics_hash(),
     shell:
         "job jobs case {output} <<< {params.case:q} > {log} 2>&1"
@@ -20,7 +20,7 @@ rule simulate_case:
 
 rule list_cases:
     input:
-        list(map(case_file, STUDY.specs)),
+        list(map(case_file, STUDY.cases)),
     output:
         report(
             f"{RESULTS}/provenance.html",
@@ -41,5 +41,5 @@ rule list_cases:
         "job jobs provenance {output} {input} <<< {params.plan:q} > {log} 2>&1"
 
 
-if STUDY.specs:
+if STUDY.cases:
     PRODUCTS += [*rules.list_cases.output]

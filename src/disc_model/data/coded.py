@@ -11,7 +11,6 @@ import xarray as xr
 
 from disc_model.data.variables import flag_names
 from disc_model.errors import require
-from disc_model.parameters import PLATE_NAME, Disc
 
 Data = TypeVar("Data", xr.DataArray, xr.Dataset, xr.DataTree)
 
@@ -80,14 +79,3 @@ def head_of(name: str, attributes: Mapping[Any, Any]) -> str:
     """The head of a column: a name, and the unit of its numbers."""
     unit = attributes.get("units", "1")
     return name if unit in ("", "1") else f"{name} ({unit})"
-
-
-def with_texts_of_discs(data: xr.Dataset) -> xr.Dataset:
-    """A dataset whose discs along a dimension are their tables in JSON, and the plate beside them its
-    name."""
-    texts = {}
-    for name, x in data.coords.items():
-        if x.dtype.kind == "O" and all(isinstance(value, Disc | None) for value in x.values.flat):
-            written = [PLATE_NAME if disc is None else disc.model_dump_json() for disc in x.values]
-            texts[name] = (x.dims, written, x.attrs)
-    return data.assign_coords(texts)

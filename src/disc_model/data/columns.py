@@ -65,8 +65,7 @@ def scalars_dataset(
 def _parameter_values(p: Parameters) -> dict[str, Any]:
     """The parameters by name: numbers in place of words where these stand for one, and nan for what
     has no value, or does not count beside another one."""
-    values: dict[str, Any] = p.model_dump()
-    values["stretching"] = p.stretching
+    values: dict[str, Any] = dict(p)
     if p.contact_compliance == RESIDUAL:
         # nan if no modes are left out for it, which has made the case fail
         values["contact_compliance"] = math.nan
@@ -91,15 +90,7 @@ def _parameter_values(p: Parameters) -> dict[str, Any]:
 
 # ---- What functions return
 
-BY_METHODS = (
-    "stable",
-    "frequency",
-    "at_lower_bound",
-    "border",
-    "stick_time",
-    "slip_time",
-    "sliding_growth_rate",
-)
+BY_METHODS = ("stable", "frequency", "stick_time", "slip_time", "sliding_growth_rate")
 """Numbers and verdicts of results that are no fields of theirs, but follow from these."""
 OF_A_CYCLE = ("releases", "backward_releases", "reversals", "separations", "sticks", "stable")
 """Variables that have no value without a cycle, though the result of `floquet` has a count or a verdict."""
@@ -114,28 +105,20 @@ def result_dataset(result: Any, function: str = "") -> xr.Dataset:
     result : a dataset, a result of this package, whose attributes become variables, a mapping, or one number
     function : its name, if it is one of this package
     """
-    words = {"status": str(getattr(result, "status", "ok")), "message": message_of(result)}
-    data = result if isinstance(result, xr.Dataset) else _dataset_of(result, function)
+    kind = type(result).__name__ if is_dataclass(result) else function
+    if isinstance(result, xr.Dataset):
+        data = result
+    elif hasattr(result, "to_dataset"):
+        data = result.to_dataset()
+        stated = {name: x for name, x in data.attrs.items() if name not in ("message", "versions")}
+        data = data.assign(_dataset_of_values(stated, kind))
+    else:
+        data = _dataset_of_values(_values_of(result), kind)
     if not data.variables:
         rule = "must return a number, a mapping of numbers, words and arrays of one dimension, or a dataset"
         raise ParameterError(Fault(("function",), function, rule))
+    words = {"status": str(getattr(result, "status", "ok")), "message": message_of(result)}
     return with_real_parts(xr.Dataset({**words, **data.data_vars}, data.coords))
-
-
-def _dataset_of(result: Any, function: str) -> xr.Dataset:
-    """The dataset of a result, with its attributes as variables, or of its values."""
-    kind = type(result).__name__ if is_dataclass(result) else function
-    if not hasattr(result, "to_dataset"):
-        return _dataset_of_values(_values_of(result), kind)
-    data = result.to_dataset()
-    if hasattr(result, "border"):  # critical values, which have an axis of their own at each point
-        found = _dataset_of_values(_values_of(result), kind)
-        own = data["value"].attrs
-        for name in ("border", *(name for name in found if name in data)):
-            found[name].attrs = dict(data[name].attrs if name in data else own)
-        return found
-    stated = {name: x for name, x in data.attrs.items() if name not in ("message", "versions")}
-    return data.assign(_dataset_of_values(stated, kind))
 
 
 def _dataset_of_values(values: Mapping[Any, Any], kind: str) -> xr.Dataset:
@@ -174,15 +157,14 @@ def with_real_parts(data: xr.Dataset) -> xr.Dataset:
     for name, x in data.data_vars.items():
         if x.dtype.kind == "c":
             parts |= {f"{name}_real": x.real, f"{name}_imag": x.imag}
-    whole = [name for name, x in data.data_vars.items() if x.dtype.kind == "c"]
-    return data.drop_vars(whole).assign(parts)
+    return data.drop_vars({x.name for x in parts.values()}).assign(parts)
 
 
 def with_complex_values(data: xr.Dataset) -> xr.Dataset:
     """A dataset with complex variables in place of the parts that `with_real_parts` has made of them."""
-    names = [
-        str(name).removesuffix("_real") for name in data.data_vars if str(name).endswith("_real")
-    ]
-    whole = {name: data[f"{name}_real"] + 1j * data[f"{name}_imag"] for name in names}
-    parts = [f"{name}_{part}" for name in names for part in ("real", "imag")]
-    return data.drop_vars(parts).assign(whole)
+    whole = {}
+    for real in map(str, data.data_vars):
+        name = real.removesuffix("_real")
+        if name != real:
+            whole[name] = data[real] + 1j * data[f"{name}_imag"]
+    return data.drop_vars([f"{x}_{part}" for x in whole for part in ("real", "imag")]).assign(whole)

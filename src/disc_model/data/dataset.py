@@ -4,7 +4,6 @@ times are stored, so that equal runs give equal bytes."""
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterable
 from functools import partial
 from pathlib import Path
@@ -12,8 +11,7 @@ from typing import Any
 
 import xarray as xr
 
-from disc_model.data.coded import table_of, with_texts_of_discs
-from disc_model.data.described import describe_run
+from disc_model.data.coded import table_of
 from disc_model.data.files import (
     MissingFile,
     UnreadableFile,
@@ -38,9 +36,8 @@ def save(data: Any, path: str | Path) -> None:
 
     Parameters
     ----------
-    data : an xarray.Dataset or xarray.DataTree of numbers and words; discs along a dimension are written as text, in
-        JSON, and None beside them, the plate, as "plate". A `Branch` and what `critical` returns are written as the
-        dataset of their method `to_dataset`, and an xarray.DataArray that has a name as a dataset of it alone. A
+    data : an xarray.Dataset or xarray.DataTree of numbers and words. A `Branch` and what `critical` returns are written
+        as the dataset of their method `to_dataset`, and an xarray.DataArray that has a name as a dataset of it alone. A
         `Result` is written by its method `save`, to .nc, and read by its method `load`
     path : its suffix says how. ".nc": netCDF 4. ".csv": a table of pandas with a row for each point, units in the
         heads, such as "Omega (rad s-1)", and words for what stands as numbers in `data`. Numbers that stand along
@@ -82,9 +79,7 @@ def save(data: Any, path: str | Path) -> None:
 def _as_dataset(data: Any) -> Any:
     """A dataset or tree as it is, and an array or a result as its dataset; raises `ParameterError`."""
     rule = "must be an xarray.Dataset or xarray.DataTree"
-    if isinstance(data, xr.Dataset):
-        return with_texts_of_discs(data)
-    if isinstance(data, xr.DataTree):
+    if isinstance(data, xr.Dataset | xr.DataTree):
         return data
     require((hasattr(data, "to_dataset"), "data", data, rule))
     try:
@@ -153,7 +148,7 @@ def load(path: str | Path) -> xr.Dataset | xr.DataTree:
     >>> case = dm.Parameters(N=385, Omega=15.1)
     >>> dm.simulate(case, 1, {"late": dm.Window(last=0.5, rate=1e4)}).save("run.nc")
     >>> sorted(dm.load("run.nc").children)
-    ['events', 'final_state', 'late']
+    ['events', 'late']
     """
     tree = load_tree(path)
     return tree if tree.children else tree.to_dataset()
@@ -178,29 +173,9 @@ def _with_words(group: xr.Dataset) -> xr.Dataset:
     return group.assign(words)
 
 
-def load_result(path: str | Path, *, lazy: bool = False) -> xr.DataTree:
-    """As `load_tree`, of a file of a study's results: `UnreadableFile` has a remedy, and the variables of
-    a run say what they are in today's words."""
-    try:
-        tree = load_tree(path, lazy=lazy)
-    except UnreadableFile as error:
-        raise UnreadableFile(f"{error}\nDelete it, and run the same command again") from None
-    if "parameters_key" in tree.attrs:
-        describe_run(tree)
-    return tree
-
-
 def load_cases(paths: Iterable[str | Path]) -> dict[str, xr.DataTree]:
-    """As `load_result`, by the names of files, such as those of cases or studies."""
-    return {Path(path).stem: load_result(path) for path in paths}
-
-
-# ---- Provenance
-
-
-def json_attribute(value: Any) -> str:
-    """A mapping or list as JSON text, because netCDF attributes cannot hold these, None or bool."""
-    return json.dumps(value, sort_keys=True)
+    """As `load_tree`, by the names of files, such as those of cases or studies."""
+    return {Path(path).stem: load_tree(path) for path in paths}
 
 
 # ---- Access to the tree of one case, for claims and figures; a missing part is explained

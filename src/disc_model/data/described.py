@@ -3,13 +3,12 @@ are merged or read, so that other words need no new computation."""
 
 from collections import ChainMap
 from collections.abc import Mapping
-from contextlib import suppress
 from types import MappingProxyType
 from typing import Any
 
 import xarray as xr
 
-from disc_model.data.variables import COMMON, OF_QUANTITIES, OF_RESULTS, TEXTS, Variable, attributes
+from disc_model.data.variables import COMMON, OF_QUANTITIES, OF_RESULTS, TEXTS, Variable
 
 
 def known_of(kind: str) -> Mapping[str, Variable]:
@@ -29,23 +28,10 @@ def described(
     known = known_of(kind)
     said = data.copy()
     for name in known.keys() & said.variables.keys():
-        _describe(said.variables[name], known[str(name)].texts(options))
+        variable = said.variables[name]
+        texts = known[str(name)].texts(options)
+        if variable.dtype.kind in "UO":  # words themselves have no unit
+            texts.pop("units", None)
+        kept = {key: x for key, x in variable.attrs.items() if key not in TEXTS}
+        variable.attrs = {**texts, **kept}
     return said
-
-
-def describe_run(tree: xr.DataTree) -> None:
-    """Have the variables in the tree of a named case say what they are."""
-    for node in tree.subtree:
-        for name, variable in node.variables.items():
-            with suppress(KeyError):  # which are unknown
-                _describe(variable, attributes(str(name)))
-
-
-def _describe(variable: xr.Variable, attrs: Mapping[str, Any]) -> None:
-    """Replace the texts of a variable, and keep what its numbers need, such as words of flags; words
-    themselves have no unit."""
-    said = {name: attrs[name] for name in TEXTS if name in attrs}
-    if variable.dtype.kind in "UO":
-        said.pop("units", None)
-    kept = {name: value for name, value in variable.attrs.items() if name not in TEXTS}
-    variable.attrs = {**said, **kept}

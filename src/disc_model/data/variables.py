@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from disc_model.display import counted, frequencies_text
 from disc_model.errors import StatusBase
-from disc_model.mode_units import si_unit_of_mode
+from disc_model.modal_disc import column_of, si_unit_of_mode
 from disc_model.parameters import Parameters
 
 _TABLES = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
@@ -122,7 +122,7 @@ class Variable(NamedTuple):
         stated = {name: getattr(self, name) for name in TEXTS[:4] if getattr(self, name)}
         if self.parameter:
             number = options.get(self.parameter, self.parameter)
-            return {**attributes_of_number(number), **stated, "parameter": number}
+            return {**attributes(number), **stated, "parameter": number}
         return stated
 
     @property
@@ -164,9 +164,9 @@ def _variables(table: Mapping[str, Any]) -> dict[str, Variable]:
     return variables
 
 
-SERIES, SCALARS, PERTURBATIONS, COORDINATES, OF_STATES, _OF_GRIDS, _OF_A_MODE = (
+SERIES, SCALARS, PERTURBATIONS, COORDINATES, _OF_GRIDS, _OF_A_MODE = (
     _variables(_TABLES[part])
-    for part in ("series", "scalars", "perturbations", "modal", "of_states", "of_grids", "of_modes")
+    for part in ("series", "scalars", "perturbations", "modal", "of_grids", "of_modes")
 )
 OF_RESULTS = {name: _variables(part) for name, part in _TABLES["results"].items()}
 OF_RESULTS["Result"].update(SCALARS)
@@ -182,12 +182,12 @@ COMMON = _variables(_TABLES["common"])
 GROUPS = ("events", "final_state", "initial_state")  # groups in the file of a run, beside windows
 BESIDE_WINDOWS = frozenset({*GROUPS, *SCALARS, *Parameters.model_fields})
 """Groups and variables beside the windows in a file; no window may have such a name."""
+TAKEN = "must not be the name of a parameter or variable of results"
+"""The rule that says so."""
 CHOICES: dict[str, tuple[str, ...]] = {
     name: get_args(Parameters.model_fields[name].annotation)
     for name in ("normalization", "contact", "contact_force", "friction_law", "stretching")
 }
-# flag of points that a grid's rule leaves out; other variables have no value there
-EXCLUDED = "excluded"
 TRUTH = {"comment": "1 for True, 0 for False, nan where there is neither"}
 """Attributes of numbers that stand for True and False, since some are missing."""
 
@@ -208,8 +208,10 @@ _CF_UNITS = {
 
 
 def attributes(name: str) -> dict[str, Any]:
-    """CF attributes of a variable: units, long name, comment and, for a flag, the meanings of its
-    values."""
+    """CF attributes of a variable of a run, a parameter or a number of one of a disc's modes: units, long
+    name, comment and, for a flag, the meanings of its values."""
+    if column_of(name):
+        return _attributes_of_mode(name)
     stem, _, bound = name.rpartition("_")
     known = SERIES | SCALARS | PERTURBATIONS | _OF_GRIDS
     if bound in _BOUNDS and stem in SERIES:
@@ -227,20 +229,13 @@ def attributes(name: str) -> dict[str, Any]:
     return Variable(_CF_UNITS.get(unit, unit), text, choices, comment=comment).attributes
 
 
-def attributes_of_mode(name: str) -> dict[str, Any]:
+def _attributes_of_mode(name: str) -> dict[str, Any]:
     """CF attributes of a number of one of a disc's modes, such as omega_2_0."""
     column, diameters, circles = name.rsplit("_", 2)
     number = _OF_A_MODE[column]
     text = f"{number.long_name} of the mode ({diameters}, {circles})"
     lines = f"{counted(int(diameters), 'nodal diameter')} and {counted(int(circles), 'circle')}"
     return number._replace(long_name=text, comment=lines).attributes
-
-
-def attributes_of_number(name: str) -> dict[str, Any]:
-    """CF attributes of a number of a case: a parameter, or a number of one of a disc's modes."""
-    if name in Parameters.model_fields:
-        return attributes(name)
-    return attributes_of_mode(name)
 
 
 def flag_names(variable: Any) -> np.ndarray:
@@ -253,14 +248,6 @@ def flag_names(variable: Any) -> np.ndarray:
     # the last one is that of a missing value
     known = np.array([*variable.attrs["flag_meanings"].split(), ""])
     return np.asarray(known[np.where(np.isnan(values), -1, values).astype(int)])
-
-
-def rule_of_taken(name: str) -> str:
-    """The rule that the name of a case or window breaks, as a part of a file has it."""
-    kind = "parameter" if name in Parameters.model_fields else "variable"
-    if name in GROUPS:
-        kind = "group"
-    return f"must not be the name of a {kind} of results"
 
 
 def stated_in(study: Any, what: str) -> dict[str, Any]:

@@ -81,14 +81,10 @@ def _samples(ax: Axes, study: Dataset, x: str) -> None:
     """Samples by phase, hollow where motions have not settled, below the classes of motion."""
     options = stated_in(study, "options")
     psi, late = study["psi"].transpose(x, ...), study["settled"] != "settled"
-    names = EVENTS
-    if options["section"] != "event":
-        names = {}
-        psi.attrs["long_name"] += ", once per turn of the drive"
     for phase, marker in MARKS.items():
         look: Options = {"color": OF_PHASE[phase], "mfc": OF_PHASE[phase], "ms": 2.0, "mew": 0}
         here = psi.where((study["phase"] == phase) & ~late)
-        mark_points(ax, study[x], here, names.get(phase, phase), marker=marker, **look)
+        mark_points(ax, study[x], here, EVENTS.get(phase, phase), marker=marker, **look)
     few = psi.where(late & (study["sample"] <= MOST_HOLLOW))
     doubt = f"hollow: not settled in {options['max_transient']:g} s"
     mark_points(ax, study[x], few, doubt, color=GREY, marker="o", mew=0.5)

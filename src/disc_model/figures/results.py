@@ -16,7 +16,6 @@ from pydantic import AfterValidator, Field
 from xarray import Dataset, DataTree
 
 from disc_model.data.dataset import Missing
-from disc_model.data.swept_branches import is_of_sweep
 from disc_model.disc.plate import mode_arrays, radial_range
 from disc_model.errors import Fault, ParameterError, raise_faults, require, suggestion
 from disc_model.figures import runs, stability
@@ -247,9 +246,6 @@ def sweep(study: Any, variable: Any, x: Any, ax: Any, units: Any, **look: Any) -
     require((is_study, "study", study, "must be an xarray.Dataset"))
     units = Wishes(variable=variable, x=x, units=units).units
     data = study.to_dataset() if isinstance(study, DataTree) else study
-    if is_of_sweep(data):
-        rule = "holds branches: draw one by disc_model.Branch.from_dataset(study.isel(N=0)).plot()"
-        raise ParameterError(Fault(("study",), "", rule))
     single = [dim for dim, size in data.sizes.items() if size == 1 and dim != x]
     data = swapped(data.squeeze(single).compute(), x)
     name = chosen(data, variable, x)

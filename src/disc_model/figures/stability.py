@@ -13,7 +13,7 @@ from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 from xarray import DataArray, Dataset
 
-from disc_model.data.variables import OF_RESULTS, attributes_of_number, typeset, values_text
+from disc_model.data.variables import OF_RESULTS, attributes, typeset, values_text
 from disc_model.disc.plate import mode_arrays, mode_shapes, radial_range
 from disc_model.figures.draw import (
     BELOW_ANY,
@@ -53,10 +53,10 @@ def case_text(case: Parameters | None, *varied: str) -> str:
     return fill(values_text(values), 40)
 
 
-def column(name: str, values: Any, attributes: Any = None, units: Any = None) -> DataArray:
+def column(name: str, values: Any, attrs: Any = None, units: Any = None) -> DataArray:
     """Values of a number of a case, or of what has these attributes, SI units, as readers see them,
     shape (point,)."""
-    held = Dataset({name: ("point", values, attributes or attributes_of_number(name))})
+    held = Dataset({name: ("point", values, attrs or attributes(name))})
     return shown(held, units)[name]
 
 

@@ -357,7 +357,7 @@ def sliding_outcome(
     motion, linear = xr.align(study, sliding.rename(value=x), join="inner")
     outcome = motion["outcome"]
     stable = linear["largest_growth_rate"] <= NEUTRAL
-    both = outcome.where(outcome == "excluded", "undecided")
+    both = xr.full_like(outcome, "undecided", dtype=object)
     looks = {}
     for (fate, outcomes), (word, hatch) in product(FATES.items(), STABILITIES.items()):
         here = outcome.isin(outcomes) & (stable == (word == "stable"))
@@ -686,7 +686,7 @@ def thirds_of(cases: Dataset) -> Dataset:
     values = cases["parameter_values"]
     low, high = (values.quantile(end, "sample", skipna=False) for end in (1 / 3, 2 / 3))
     inside = xr.concat([values <= low, values >= high], "third")
-    inside &= (cases["cycle"] != "failed") & (cases["status"] != "excluded")
+    inside &= cases["cycle"] != "failed"
     stable = cases["cycle"].isin(["stable", "steady_sliding", "at_rest"])
     counts = (inside & ~stable).sum("sample"), inside.sum("sample")
     ends = xr.apply_ufunc(np.vectorize(share), *counts, output_core_dims=[()] * 3)

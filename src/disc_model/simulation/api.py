@@ -4,41 +4,55 @@ from __future__ import annotations
 
 import math
 import warnings
+from collections.abc import Mapping
+from typing import Annotated, Any, Literal
 
 import numpy as np
-from numpy.typing import ArrayLike
+from pydantic import BeforeValidator, InstanceOf, PlainValidator, StrictBool, TypeAdapter
 
 from disc_model.errors import as_text, raise_faults, require
-from disc_model.parameters import Parameters, foreign_case
+from disc_model.parameters import Parameters
 from disc_model.simulation import states
 from disc_model.simulation.case import (
     Execution,
     Poincare,
     Ramp,
-    Windows,
+    Window,
+    WindowName,
     ramp_faults,
     resolved_windows,
 )
 from disc_model.simulation.result import Result
 from disc_model.simulation.run import Request, Run
 from disc_model.simulation.states import State
-from disc_model.units import in_si
+from disc_model.units import Seconds, Tolerance, checked
 
 _PLAIN = Execution()
 
 
+Asked = Mapping[WindowName, InstanceOf[Window] | InstanceOf[Poincare]]
+"""Samples to keep, by names of windows."""
+Ramps = Annotated[
+    Any,
+    PlainValidator(TypeAdapter(tuple[InstanceOf[Ramp], ...]).validate_python),
+    BeforeValidator(lambda ramps: (ramps,) if isinstance(ramps, Ramp) else ramps),
+]
+"""One ramp, or a tuple of several."""
+
+
+@checked
 def simulate(  # noqa: PLR0913
     case: Parameters,
-    t_end: float | str | None = None,
-    windows: Windows | None = None,
+    t_end: Seconds | None = None,
+    windows: Asked | None = None,
     *,
-    duration: float | str | None = None,
-    events: bool = True,
-    tol: float = 1e-10,
-    initial_state: State | None = None,
-    stop_at: str | None = None,
-    ramps: Ramp | tuple[Ramp, ...] = (),
-    execution: Execution = _PLAIN,
+    duration: Seconds | None = None,
+    events: StrictBool = True,
+    tol: Tolerance = 1e-10,
+    initial_state: InstanceOf[State] | None = None,
+    stop_at: Literal["first_separation"] | None = None,
+    ramps: Ramps = (),
+    execution: InstanceOf[Execution] = _PLAIN,
 ) -> Result:
     """Simulate from the static start (or ``initial_state``) to the time ``t_end``, or for a
     ``duration``.
@@ -80,49 +94,48 @@ def simulate(  # noqa: PLR0913
     >>> run["late"]["P"].sizes, run["late"]["P"].attrs["units"]
     (Frozen({'time': 2001}), 'N')
     """
-    asked = Request(
+    rule = "is required, or duration instead of it, and not both"
+    require(((t_end is None) != (duration is None), "t_end", t_end, rule))
+    start = 0.0 if initial_state is None else float(initial_state.time)
+    end = t_end or start + (duration or 0.0)
+    rule = f"must be > {as_text(start)}, the time of the initial state"
+    require((start < end < math.inf, "t_end", t_end, rule))
+
+    asked = windows or {}
+    for name, window in asked.items():
+        last = getattr(window, "last", None)
+        rule = "must not be given with stop_at: where the run ends is not known before"
+        require((last is None or stop_at is None, f"windows.{name}.last", last, rule))
+    sampled = resolved_windows(asked, start, end)
+    sections = any(isinstance(window, Poincare) for window in sampled.values())
+    raise_faults([*ramp_faults(case, ramps, poincare=sections)])
+
+    loosest = states.loosest_tolerance(case)
+    if tol > loosest:
+        used = f"tol={tol:g}: the series need {loosest:g} at most, which is used"
+        warnings.warn(used, stacklevel=4)
+    request = Request(
         case=case,
-        t_end=t_end,
-        windows=windows or {},
-        duration=duration,
+        t_end=end,
+        windows=sampled,
         events=events,
-        tol=tol,
+        tol=min(tol, loosest),
         initial_state=initial_state,
         stop_at=stop_at,
         ramps=ramps,
         execution=execution,
     )
-    start = 0.0 if initial_state is None else float(initial_state.time)
-    end = asked.t_end
-    if asked.duration is not None:
-        end = start + asked.duration
-    rule = f"must be > {as_text(start)}, the time of the initial state"
-    require((end is not None and start < end < math.inf, "t_end", t_end, rule))
-    assert end is not None
-
-    for name, window in asked.windows.items():
-        last = getattr(window, "last", None)
-        rule = "must not be given with stop_at: where the run ends is not known before"
-        require((last is None or stop_at is None, f"windows.{name}.last", last, rule))
-    sampled = resolved_windows(asked.windows, start, end)
-    sections = any(isinstance(window, Poincare) for window in sampled.values())
-    raise_faults([*ramp_faults(case, asked.ramps, poincare=sections)])
-
-    loosest = states.loosest_tolerance(case)
-    if asked.tol > loosest:
-        used = f"tol={tol:g}: the series need {loosest:g} at most, which is used"
-        warnings.warn(used, stacklevel=3)
-    resolved = {"t_end": end, "windows": sampled, "tol": min(asked.tol, loosest)}
-    return Run(asked.model_copy(update=resolved), start).complete()
+    return Run(request, start).complete()
 
 
+@checked
 def snapshots(
     case: Parameters,
-    times: ArrayLike,
+    times: states.Times,
     *,
-    tol: float = 1e-10,
-    initial_state: State | None = None,
-    ramps: Ramp | tuple[Ramp, ...] = (),
+    tol: Tolerance = 1e-10,
+    initial_state: InstanceOf[State] | None = None,
+    ramps: Ramps = (),
 ) -> tuple[State, ...]:
     """States of the system at given times, with its modal coordinates.
 
@@ -150,20 +163,11 @@ def snapshots(
     >>> [state.phase for state in dm.snapshots(dm.Parameters(N=385, Omega=15.1), [0.0, 0.006])]
     ['stick', 'slip']
     """
-    raise_faults(foreign_case(case))
-    wanted = states.finite_numbers(in_si(times, "s", [], ()))
-    ascend = wanted is not None and not np.any(np.diff(wanted) < 0)
-    is_state = isinstance(initial_state, State | None)
-    require(
-        (is_state, "initial_state", initial_state, "must be a State"),
-        (ascend, "times", times, "must be finite and ascend"),
-    )
-    assert wanted is not None
     state = initial_state or states.static_start(case)
-    rule = f"must be >= {as_text(state.time)} (the time of the initial state)"
-    require((not np.any(wanted < state.time), "times", times, rule))
+    rule = f"must be >= {as_text(state.time)} (the time of the initial state), and ascend"
+    require((np.all(np.diff(times, prepend=state.time) >= 0), "times", times, rule))
     reached: list[State] = []
-    for time in wanted.tolist():
+    for time in times.tolist():
         if time > state.time:
             run = simulate(case, time, tol=tol, events=False, initial_state=state, ramps=ramps)
             state = run.raise_for_status().final_state

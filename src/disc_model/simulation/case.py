@@ -2,18 +2,29 @@
 
 from __future__ import annotations
 
+import json
 import math
 import sys
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import pairwise
 from typing import Annotated, Any, Literal, NamedTuple, Self
 
-from pydantic import Field, create_model, field_validator, model_validator
+import numpy as np
+from pydantic import (
+    AfterValidator,
+    BeforeValidator,
+    Field,
+    StringConstraints,
+    create_model,
+    field_validator,
+    model_validator,
+)
 
-from disc_model.errors import Fault, as_text, require
-from disc_model.parameters import FORMAT, Parameters
-from disc_model.provenance import canonical_json, content_key
-from disc_model.units import Count, Finite, Positive, Real, Seconds, Strict, Unit
+from disc_model.data.variables import BESIDE_WINDOWS, TAKEN
+from disc_model.errors import Fault, as_text, raise_faults, require
+from disc_model.parameters import Parameters
+from disc_model.provenance import content_key
+from disc_model.units import Count, Finite, Positive, Real, Seconds, Strict, Tolerance, Unit, must
 
 Time = Annotated[Real, Field(ge=0, allow_inf_nan=False), Unit("s")]
 Stop = Annotated[Real, Field(ge=0), Unit("s")]
@@ -183,8 +194,6 @@ def resolved_windows(windows: Windows, start: float, t_end: float) -> Windows:
 
 # ---- Slow ramps of the drive speed or of the preload, and the values of Omega and N at any time
 
-RAMPED = ("Omega", "N")
-
 
 class Ramp(Interval):
     """A slow change of the drive speed or the preload: linear from `start` to `end`, and constant
@@ -263,13 +272,28 @@ def ramp_faults(p: Parameters, ramps: Sequence[Ramp], poincare: bool) -> Iterato
 def pieces(p: Parameters, ramps: Sequence[Ramp]) -> tuple[Piece, ...]:
     """The intervals of constant rates, in order, the first before any ramp; ramps to the present
     value do not count."""
-    lines = {name: line(p, ramps, name) for name in RAMPED}
-    knots = {time for knots in lines.values() for time, _, _ in knots}
+    if not ramps:  # as nearly always, and at once
+        return (Piece(-math.inf, math.inf, 0.0, p.Omega, 0.0, p.N, 0.0),)
+    knots: set[float] = set()
+    courses = []
+    for name in ("Omega", "N"):
+        times: list[float] = []
+        values = [getattr(p, name)]
+        for ramp in sorted(ramps, key=lambda ramp: ramp.start):
+            if ramp.parameter == name and ramp.to != values[-1]:
+                times += [ramp.start, ramp.end]
+                values += [values[-1], ramp.to]
+        knots.update(times)
+        courses.append((times, values[1:]) if times else ([0.0], values))
+    edges = np.array([-math.inf, *sorted(knots), math.inf])
+    columns = [edges[:-1], edges[1:]]
+    for course in courses:
+        at_edges = np.interp(edges, *course)
+        columns += [at_edges[:-1], np.diff(at_edges) / np.diff(edges)]
     parts: list[Piece] = []
     angle = 0.0
-    for begin, end in pairwise([*sorted(knots), math.inf]):
-        (Omega, Omega_rate), (N, N_rate) = (_at(lines[name], begin) for name in RAMPED)
-        parts.append(Piece(begin, end, angle, Omega, Omega_rate, N, N_rate))
+    for begin, end, *rest in np.transpose(columns).tolist():
+        parts.append(Piece(begin, end, angle, *rest))
         angle = parts[-1].angle_at(end)
     return tuple(parts)
 
@@ -278,29 +302,6 @@ def angle_of_drive(intervals: Sequence[Piece], time: float) -> float:
     """Angle by which the drive point has turned since the time 0, rad, from `pieces`."""
     now = next(piece for piece in reversed(intervals) if piece.begin <= time)
     return now.angle_at(time)
-
-
-def line(p: Parameters, ramps: Sequence[Ramp], name: str) -> list[tuple[float, float, float]]:
-    """Times at which the rate of Omega or N changes, with value and rate from then on; the first
-    time is -inf."""
-    value = getattr(p, name)
-    knots = [(-math.inf, value, 0.0)]
-    for ramp in sorted(ramps, key=lambda ramp: ramp.start):
-        if ramp.parameter == name and ramp.to != value:
-            if knots[-1][0] == ramp.start:  # one ramp continues where another ends
-                knots.pop()
-            knots += [
-                (ramp.start, value, (ramp.to - value) / (ramp.end - ramp.start)),
-                (ramp.end, ramp.to, 0.0),
-            ]
-            value = ramp.to
-    return knots
-
-
-def _at(knots: list[tuple[float, float, float]], time: float) -> tuple[float, float]:
-    """Value and rate from ``time`` on."""
-    begin, value, rate = next(knot for knot in reversed(knots) if knot[0] <= time)
-    return (value + rate * (time - begin) if rate else value), rate
 
 
 # ---- Initial states
@@ -335,61 +336,81 @@ class Start(Strict):
     """The state from which a motion starts: the static start, unless one of these keys is given.
 
     prerun : after another motion, such as one that has separated
-    perturbation : added to a coordinate: ``u`` (m) and ``u_velocity`` (m/s) of the slider and of the disc under it,
-        ``f`` (rad/s), the slider's angular velocity
+    u, u_velocity : m and m/s, added to the state of the slider and of the disc under it
+    f : rad/s, added to the slider's angular velocity
     """
 
     prerun: Prerun | None = Field(
         None, description="another case that is simulated first, with parameters and time"
     )
-    perturbation: Annotated[
-        dict[Literal["u", "u_velocity", "f"], Finite],
-        Unit({"u": "m", "u_velocity": "m/s", "f": "rad/s"}),
-    ] = Field({}, description="what is added to coordinates of the start, u, u_velocity or f")
+    u: Annotated[Finite, Unit("m")] = 0.0
+    u_velocity: Annotated[Finite, Unit("m/s")] = 0.0
+    f: Annotated[Finite, Unit("rad/s")] = 0.0
 
 
-# ---- One case ready to be run, and its content address
+# ---- Named cases of studies, and their content addresses
+
+Name = Annotated[str, StringConstraints(pattern=r"^[A-Za-z]\w*$", max_length=100)]
+WindowName = Annotated[
+    str,
+    StringConstraints(pattern=r"^\w([^/]*[^/\s])?$", max_length=60),  # of a group in files
+    AfterValidator(must(lambda name: name not in BESIDE_WINDOWS, TAKEN)),
+]
+_CALLED = {"title", "reference"}
 
 
-class CaseSpec(Strict):
-    """A case ready to be run: everything that a simulation depends on, and nothing else."""
+def without_null(parts: dict[str, Any]) -> dict[str, Any]:
+    """The parts of a file that null does not drop."""
+    return {name: part for name, part in parts.items() if part is not None}
 
-    parameters: Parameters
-    t_end: float
-    tol: float = 1e-10
-    stop_at: Literal["first_separation"] | None = None
-    windows: tuple[tuple[str, Window], ...] = ()
+
+class RecordSpec(Strict):
+    """What is recorded of a case. Figures and claims refer to windows by their names."""
+
+    windows: Annotated[dict[WindowName, Window | None], AfterValidator(without_null)] = Field({})
     poincare: Poincare | None = None
-    events: tuple[float, float] | Span | None = (
-        None  # a span if it counts back from where the run stops
-    )
-    start: Start = Start()
-    ramps: tuple[Ramp, ...] = ()
-    format: Literal[1] = FORMAT
+    events: bool | Span = True
 
     @property
     def sections(self) -> dict[str, Window | Poincare]:
         """Windows by name, and the Poincare section as ``poincare``, if it is recorded."""
-        sections: dict[str, Window | Poincare] = dict(self.windows)
-        if self.poincare is not None:
-            sections["poincare"] = self.poincare
-        return sections
+        return without_null({**self.windows, "poincare": self.poincare})
+
+
+class CaseSpec(Strict):
+    """A named simulation of a study: what it depends on, and how it is called."""
+
+    title: str = ""
+    reference: str = ""
+    parameters: Annotated[
+        Parameters,
+        BeforeValidator(Parameters.model_validate, json_schema_input_type=SomeParameters),
+    ]
+    t_end: Seconds
+    tol: Tolerance = 1e-10
+    stop_at: Literal["first_separation"] | None = None
+    start: Start = Start()
+    ramps: tuple[Ramp, ...] = ()
+    record: RecordSpec = RecordSpec()
+
+    @model_validator(mode="after")
+    def _consistent(self) -> Self:
+        """Check the rules between the values of the case."""
+        poincare = self.record.poincare is not None
+        raise_faults([*ramp_faults(self.parameters, self.ramps, poincare)])
+        self.longest_sections  # noqa: B018
+        return self
 
     @property
     def longest_sections(self) -> Windows:
-        """The same, with absolute times in a run that does not stop before its end."""
-        return resolved_windows(self.sections, 0.0, self.t_end)
+        """What is recorded, with absolute times in a run that does not stop before its end."""
+        return resolved_windows(self.record.sections, 0.0, self.t_end)
 
     @property
     def canonical(self) -> str:
-        """JSON text that is equal for equal cases, however they were written; `model_validate_json`
-        reads it."""
-        return canonical_json(self.model_dump())
-
-    @property
-    def beside(self) -> str:
-        """JSON text of all fields but the parameters."""
-        return canonical_json(self.model_dump(exclude={"parameters"}))
+        """JSON text that is equal for equal cases, however they were written and are called;
+        `model_validate_json` reads it."""
+        return json.dumps(self.model_dump(mode="json", exclude=_CALLED), sort_keys=True)
 
     @property
     def key(self) -> str:

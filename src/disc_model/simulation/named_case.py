@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import logging
 from typing import TYPE_CHECKING
 
@@ -23,15 +24,15 @@ def run_case(spec: CaseSpec) -> xr.DataTree:
     import xarray as xr
 
     from disc_model.data.columns import scalars_dataset
-    from disc_model.data.dataset import json_attribute
 
     p = spec.parameters
+    span = Span() if spec.record.events is True else spec.record.events
     try:
         result = simulate(
             p,
             spec.t_end,
-            spec.sections,
-            events=spec.events is not None,
+            spec.record.sections,
+            events=bool(span),
             tol=spec.tol,
             initial_state=make_initial_state(p, spec.start, spec.tol),
             stop_at=spec.stop_at,
@@ -44,21 +45,19 @@ def run_case(spec: CaseSpec) -> xr.DataTree:
     else:
         log.info("%s", result)
         tree = result.to_tree()
-        kept = spec.events
-        if isinstance(kept, Span):
-            kept = kept.ends(0.0, result.final_state.time)
-        if kept is not None:
+        if span:
+            kept = span.ends(0.0, result.final_state.time)
             events = tree["events"].to_dataset()
             within = slice(*events["time"].values.searchsorted(kept))
-            span = dict(zip(("kept_from", "kept_until"), kept, strict=True))
-            tree["events"].dataset = events.isel(event=within).assign_attrs(span)
+            ends = {"kept_from": kept[0], "kept_until": kept[1]}
+            tree["events"].dataset = events.isel(event=within).assign_attrs(ends)
     if spec.start != Start():
-        tree.attrs["start"] = json_attribute(spec.start.model_dump())
+        tree.attrs["start"] = json.dumps(spec.start.model_dump(), sort_keys=True)
     tree.attrs |= {
         "source_hash": physics_hash(),
         "git_commit": git_commit(),
         "versions": versions_text(),
-        "specification": spec.beside,
+        "specification": spec.canonical,
         "specification_key": spec.key,
     }
     return tree

@@ -14,7 +14,7 @@ import numpy as np
 
 from disc_model import errors
 from disc_model.arrays import Array, EqualByValue
-from disc_model.data.files import unreadable
+from disc_model.data.files import regular_file, unreadable
 from disc_model.data.variables import EVENT_KINDS, PHASES, SCALARS, attributes, values_text
 from disc_model.disc.plate import mode_arrays
 from disc_model.display import Summarised, counted, drawings, number_text
@@ -199,7 +199,7 @@ class Result(Summarised, EqualByValue):
         Parameters
         ----------
         path : of a netCDF file, ".nc": the tree of `to_tree`, which `disc_model.load` reads as well, with the text
-            ``result``, JSON of the case and of what was found
+            ``result``, JSON of the case and of what was found, the states too
 
         Raises
         ------
@@ -216,18 +216,19 @@ class Result(Summarised, EqualByValue):
         >>> dm.Result.load("run.nc")["late"].equals(run["late"])
         True
         """
-        from disc_model.data import tables
+        from disc_model.data.dataset import save
 
-        columns = {"events": dict(zip(EVENT_ROW, self.event_rows.T, strict=True)), **self.samples}
-        described: dict[str, Any] = {x: getattr(self, x) for x in Header.model_fields}
+        described: dict[str, Any] = {name: getattr(self, name) for name in Header.model_fields}
         described["statistics"] = self._compared()["statistics"]
         for which in STATES:
             if described[which] is not None:
                 values = vars(described[which]).items()
-                columns[which] = {name: x for name, x in values if isinstance(x, np.ndarray)}
-                described[which] = {name: x for name, x in values if name not in columns[which]}
-        text = Header(**described).model_dump_json()
-        tables.save_tables(columns, text, path, self.to_tree())
+                described[which] = {name: np.asarray(x).tolist() for name, x in values}
+        tree = self.to_tree()
+        tree.attrs["result"] = Header(**described).model_dump_json()
+        directions = self.event_rows[:, EVENT_ROW.index("direction")]
+        tree["events"].dataset = tree["events"].to_dataset().assign(direction=("event", directions))
+        save(tree, regular_file(path, ".nc"))
 
     def to_csv(self, path: str | Path) -> None:
         """Write the events and the samples of each window as tables of text.
@@ -274,22 +275,26 @@ class Result(Summarised, EqualByValue):
         disc_model.data.dataset.MissingFile
             If there is no such file.
         """
-        from disc_model.data import tables
+        from disc_model.data.dataset import load_tree
 
-        text, columns = tables.load_tables(path)
-        whole = text and {"events", "final_state"} <= columns.keys()
-        require((whole, "path", str(path), "must be a file written by Result.save"))
+        tree = load_tree(path)
+        rule = "must be a file written by Result.save"
+        require(("result" in tree.attrs, "path", str(path), rule))
         try:
-            fields = dict(Header.model_validate_json(text))
+            fields = dict(Header.model_validate_json(tree.attrs["result"]))
             for which in STATES:
                 if fields[which] is not None:
-                    stored = fields[which] | columns.pop(which)
-                    fields[which] = State(**stored | {"_roots": tuple(stored["_roots"])})
-            rows = columns.pop("events")
+                    fields[which] = _state_of(fields[which])
+            samples = {}
+            for name in fields["windows"]:
+                columns = tree[name].to_dataset().variables.items()
+                samples[name] = {str(key): x.values.astype(float) for key, x in columns}
             return cls(
                 **fields | {"statistics": {**fields["statistics"], "wall_time": math.nan}},
-                event_rows=np.stack([rows[name] for name in EVENT_ROW], axis=1),
-                samples={name: columns[name] for name in fields["windows"]},
+                event_rows=np.stack(
+                    [tree["events"][name] for name in EVENT_ROW], axis=1, dtype=float
+                ),
+                samples=samples,
             )
         except (LookupError, TypeError, ValueError) as error:
             raise unreadable(path, error) from None
@@ -560,6 +565,12 @@ class Result(Summarised, EqualByValue):
             initial_state=self.initial_state,
         )
         return again.to_tree()
+
+
+def _state_of(stored: Mapping[str, Any]) -> State:
+    """A state from what a file holds of it."""
+    arrays = {name: np.array(x, float) for name, x in stored.items() if isinstance(x, list)}
+    return State(**{**stored, **arrays, "_roots": tuple(stored["_roots"])})
 
 
 class Header(Strict):

@@ -5,27 +5,26 @@ from __future__ import annotations
 import math
 import time as clock
 from collections.abc import Callable
-from typing import Annotated, Any, Literal, Self
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
-from pydantic import AfterValidator, BeforeValidator, InstanceOf, StrictBool, model_validator
 
 from disc_model.arrays import Array
-from disc_model.data.variables import BESIDE_WINDOWS, PHASES, rule_of_taken
+from disc_model.data.variables import PHASES
 from disc_model.engine import audit, loop, record, transitions
 from disc_model.engine import state as motion
 from disc_model.engine.jit import compiled_for
 from disc_model.engine.jit.cache import compiling
 from disc_model.engine.model import blocks_of, flags_of, on_ramp, slope_under_slider
 from disc_model.engine.stick_modes import LONGEST_STICK
-from disc_model.errors import Fault, ParameterError, Status, require
+from disc_model.errors import Fault, ParameterError, Status
 from disc_model.parameters import Parameters
 from disc_model.provenance import content_key
 from disc_model.simulation import states
-from disc_model.simulation.case import Execution, Poincare, Ramp, Window, angle_of_drive, pieces
+from disc_model.simulation.case import Execution, Ramp, Windows, angle_of_drive, pieces
 from disc_model.simulation.result import BIN_ROW, FOLDED, SAMPLE_ROW, Result
 from disc_model.simulation.states import State
-from disc_model.units import Seconds, Strict, Tolerance
 
 MOST_STEPS = 2**62  # largest number of steps that the engine can count
 # steps between two pauses of the engine where a step is cheapest: about 0.1 s of work
@@ -55,48 +54,25 @@ BALANCES = {
 _ENGINES: dict[tuple[Any, ...], Callable[..., int]] = {}
 
 
-def _window_name(name: str) -> str:
-    """The name of a window, which is that of a group in files."""
-    long = 0 < len(name) <= 60 and name == name.strip()
-    if not long or not (name[0].isalnum() or name[0] == "_") or "/" in name:
-        rule = "the name of a window must begin with a letter, a digit or _, and have at most 60 characters and no /"
-        raise ValueError(rule)
-    if name in BESIDE_WINDOWS:
-        raise ValueError(f"the name of a window {rule_of_taken(name)}")
-    return name
+@dataclass(frozen=True)
+class Request:
+    """What a run is asked for, as `disc_model.simulate` has checked it, with absolute times."""
 
-
-class Request(Strict):
-    """What a run is asked for: the arguments of `disc_model.simulate`, checked."""
-
-    case: InstanceOf[Parameters]
-    t_end: Seconds | None
-    windows: dict[
-        Annotated[str, AfterValidator(_window_name)], InstanceOf[Window] | InstanceOf[Poincare]
-    ]
-    duration: Seconds | None
-    events: StrictBool
-    tol: Tolerance
-    initial_state: InstanceOf[State] | None
-    stop_at: Literal["first_separation"] | None
-    ramps: Annotated[
-        tuple[InstanceOf[Ramp], ...],
-        BeforeValidator(lambda ramps: (ramps,) if isinstance(ramps, Ramp) else ramps),
-    ]
-    execution: InstanceOf[Execution]
-
-    @model_validator(mode="after")
-    def _one_end(self) -> Self:
-        rule = "is required, or duration instead of it, and not both"
-        require(((self.t_end is None) != (self.duration is None), "t_end", self.t_end, rule))
-        return self
+    case: Parameters
+    t_end: float
+    windows: Windows
+    events: bool
+    tol: float
+    initial_state: State | None
+    stop_at: str | None
+    ramps: tuple[Ramp, ...]
+    execution: Execution
 
 
 class Run:
     """One run: its request, with absolute times, the engine's arrays, and the buffers that collect rows."""
 
     def __init__(self, request: Request, start: float) -> None:
-        assert request.t_end is not None
         self.request = request
         self.t_end = request.t_end
         self.case = states.engine_case(request.case)

@@ -2,25 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from functools import lru_cache
-from typing import Any
 
-from disc_model.errors import raise_faults, require
-from disc_model.parameters import Parameters, foreign_case
+from disc_model.errors import require
+from disc_model.parameters import Parameters
 from disc_model.simulation import states
 from disc_model.simulation.api import simulate
-from disc_model.simulation.case import Start
+from disc_model.simulation.case import Prerun, Start
 from disc_model.simulation.states import State
-from disc_model.units import TOLERANCES, limits_faults
+from disc_model.units import Tolerance, checked
 
 
+@checked
 def initial_state(
     case: Parameters,
-    start: Mapping[str, float] | None = None,
+    start: Start | None = None,
     *,
-    prerun: Mapping[str, Any] | None = None,
-    tol: float = 1e-10,
+    prerun: Prerun | None = None,
+    tol: Tolerance = 1e-10,
 ) -> State:
     """State from which `outcome`, or a point of a study, starts, for the `initial_state` of
     `simulate`, `snapshots` and `lyapunov_exponents`.
@@ -55,8 +54,7 @@ def initial_state(
     >>> print(f"{dm.simulate(case, 60).first_separation} s, {run.first_separation:.2f} s")
     nan s, 42.23 s
     """
-    raise_faults([*foreign_case(case), *limits_faults("tol", tol, TOLERANCES)])
-    begin = Start.model_validate({"perturbation": start or {}, "prerun": prerun})
+    begin = (start or Start()).replace(prerun=prerun)
     return make_initial_state(case, begin, tol) or states.static_start(case)
 
 
@@ -68,11 +66,12 @@ def make_initial_state(p: Parameters, start: Start, tol: float) -> State | None:
     if start.prerun is not None:
         other = p.replace(**start.prerun.parameters)
         for name in ("n_diameters", "n_circles"):
-            count, needed = getattr(other, name), getattr(p, name)
+            count = getattr(other, name)
+            needed = getattr(p, name)
             path = f"start.prerun.parameters.{name}"
             require((count == needed, path, count, f"must be that of the case, {needed}"))
         state = states.transfer_state(p, _end_of(other, start.prerun.time, tol))
-    kick = {name: value for name, value in start.perturbation.items() if value}
+    kick = {name: value for name, value in start if name != "prerun" and value}
     if not kick:
         return state
     return states.perturb(p, state or states.static_start(p), **kick)

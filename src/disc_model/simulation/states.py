@@ -9,10 +9,10 @@ from collections import defaultdict
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cache, lru_cache
-from typing import TYPE_CHECKING, Any
+from typing import Annotated, Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from pydantic import PlainValidator
 
 from disc_model.arrays import Array, EqualByValue
 from disc_model.data.variables import PHASES
@@ -30,12 +30,9 @@ from disc_model.engine import state as motion
 from disc_model.engine.model import Contact, DiscModes, Model, build_model, build_state, flags_of
 from disc_model.engine.series import Series, build_series
 from disc_model.engine.state import SEPARATION, SLIP, STICK, EngineState
-from disc_model.errors import as_text, raise_faults, require, rule_of_choice
-from disc_model.parameters import Parameters, foreign_case
-from disc_model.units import in_si, is_number, is_quantity
-
-if TYPE_CHECKING:
-    import xarray as xr
+from disc_model.errors import as_text, require, rule_of_choice
+from disc_model.parameters import Parameters
+from disc_model.units import Unit, checked, is_number, is_quantity
 
 MODAL = ("a", "b", "alpha", "beta")
 """Names of the variables of a state with one value a mode."""
@@ -202,9 +199,23 @@ def transfer_state(p: Parameters, state: State) -> State:
     )
 
 
-def deflection(
-    case: Parameters, states: State | Iterable[State], r: ArrayLike, theta: ArrayLike
-) -> xr.DataArray:
+def _numbers(values: object) -> Array:
+    """One number or several as an array of shape (n,); raises ValueError unless they are finite."""
+    array = np.atleast_1d(np.asarray(values))
+    plain = array.ndim == 1 and array.dtype.kind in "fiu" and np.isfinite(array).all()
+    if is_quantity(values) or not plain:  # numpy would leave the unit out
+        raise ValueError("must be finite numbers")
+    return array.astype(float)
+
+
+Times = Annotated[Any, PlainValidator(_numbers), Unit("s")]
+Radii = Annotated[Any, PlainValidator(_numbers), Unit("m")]
+Angles = Annotated[Any, PlainValidator(_numbers), Unit("rad")]
+"""Arrays of numbers, shape (n,), in these units."""
+
+
+@checked
+def deflection(case: Parameters, states: Any, r: Radii, theta: Angles) -> Any:
     """Displacement w(r, theta, t) of the whole disc, upward, Eq. (15).
 
     Parameters
@@ -235,31 +246,28 @@ def deflection(
     """
     import xarray as xr
 
-    raise_faults(foreign_case(case))
     modes = mode_arrays(case)
     low, high = radial_range(case)
-    radii = finite_numbers(in_si(r, "m", [], ()))
-    angles = finite_numbers(in_si(theta, "rad", [], ()))
-    given = [states] if isinstance(states, State) else [*states]
-    on_disc = radii is not None and bool(np.all((low <= radii) & (radii <= high)))
-    fit = all(_fits(state, modes.psi) for state in given)
+    given = [states] if isinstance(states, State) else states
+    fit = isinstance(given, Iterable) and all(_fits(state, modes.psi) for state in given)
     require(
-        (on_disc, "r", r, f"must be within {as_text(low)} and {as_text(high)}"),
-        (angles is not None, "theta", theta, "must be finite"),
+        (
+            np.all((low <= r) & (r <= high)),
+            "r",
+            r.tolist(),
+            f"must be within {as_text(low)} and {as_text(high)}",
+        ),
         (fit, "states", states, f"must be states of the case, with {len(modes.psi)} modes"),
     )
-    assert radii is not None
-    assert angles is not None
-
-    shapes = mode_shapes(case, radii).T
+    shapes = mode_shapes(case, r).T
     w = []
     for state in given:
-        turn = np.multiply.outer(modes.diameters, angles - state.material_angle(case))
+        turn = np.multiply.outer(modes.diameters, theta - state.material_angle(case))
         w.append(shapes @ (state.a[:, None] * np.cos(turn) + state.b[:, None] * np.sin(turn)))
     coords = {
         "time": ("time", [x.time for x in given], {"units": "s", "long_name": "time"}),
-        "r": ("r", radii, {"units": "m", "long_name": "radius"}),
-        "theta": ("theta", angles, {"units": "rad", "long_name": "angle fixed to the disc"}),
+        "r": ("r", r, {"units": "m", "long_name": "radius"}),
+        "theta": ("theta", theta, {"units": "rad", "long_name": "angle fixed to the disc"}),
     }
     attrs = {"units": "m", "long_name": "displacement of the disc; from the undeformed disc"}
     return xr.DataArray(np.array(w), coords, ("time", "r", "theta"), name="w", attrs=attrs)
@@ -487,10 +495,12 @@ def _check(state: State, case: EngineCase) -> None:
     for name in MODAL:
         values = getattr(state, name)
         rule = f"must be {count} finite numbers, one per row of plate_modes"
-        rules.append((is_finite_array(values, count), path + name, values, rule))
+        good = np.shape(values) == (count,) and np.asarray(values).dtype.kind in "fiu"
+        rules.append((good and np.isfinite(values).all(), path + name, values, rule))
     for name in (*PLAIN, "drive_angle"):
         value = getattr(state, name)
-        good = is_finite(value) or (value is None and name == "drive_angle")
+        good = value is None and name == "drive_angle"
+        good = good or (is_number(value) and math.isfinite(value))
         rules.append((good, path + name, value, "must be a finite number"))
     signed = state.phase != "slip" or state.direction in (-1, 1)
     require(
@@ -525,28 +535,6 @@ def _fits(state: object, amplitudes: Array) -> bool:
     # modes from two processors differ by at most 1e-13 (measured)
     within = 1e-9 * np.max(np.abs(amplitudes), initial=0.0)
     return np.shape(stated) == amplitudes.shape and np.allclose(stated, amplitudes, 0, within)
-
-
-def is_finite(value: object) -> bool:
-    return is_number(value) and math.isfinite(value)  # type: ignore[arg-type]
-
-
-def finite_numbers(values: object) -> Array | None:
-    """One number or several as an array of shape (n,); None if they are not finite real numbers."""
-    if is_quantity(values):  # numpy would leave its unit out
-        return None
-    try:
-        array = np.atleast_1d(np.asarray(values))
-    except (TypeError, ValueError):
-        return None
-    good = array.ndim == 1 and array.dtype.kind in "fiu" and np.isfinite(array).all()
-    return array.astype(float) if good else None
-
-
-def is_finite_array(values: object, size: int | None = None) -> bool:
-    """Whether values are a sequence of finite real numbers, `size` of them if it is given."""
-    found = None if is_number(values) else finite_numbers(values)
-    return found is not None and size in (None, found.size)
 
 
 # Local truncation error for a tolerance of 1, on rigid and on compliant contact. With it the errors

@@ -18,7 +18,7 @@ from disc_model.arrays import Array, ComplexArray, EqualByValue, Mask
 from disc_model.data.variables import (
     OF_RESULTS,
     STABLE_CYCLES,
-    attributes_of_number,
+    attributes,
     unit_of_parameter,
     value_with_unit,
 )
@@ -35,6 +35,7 @@ SLIDING = "sliding"
 DIMENSIONS: Mapping[str, tuple[str, ...]] = {
     "value": (),
     "border": (),
+    "at_lower_bound": (),
     "resolution": (),
     "crossings": ("crossing",),
     "unstable_above": ("crossing",),
@@ -158,7 +159,7 @@ class Critical(EqualByValue):
         """All values computed, and the crossings, as a dataset, to save, or to handle by xarray and pandas.
 
         Along the parameter, by its name: `growth_rate` and `sliding_growth_rate` (1/s). Along `crossing`:
-        `crossings` and `unstable_above`. Alone: `value`, `border` and `resolution`. Attributes:
+        `crossings` and `unstable_above`. Alone: `value`, `border`, `at_lower_bound` and `resolution`. Attributes:
         `kind`, `message`, and the case's `parameters` in JSON.
 
         Examples
@@ -169,7 +170,7 @@ class Critical(EqualByValue):
         >>> dm.load("critical.nc")["growth_rate"].dims
         ('mu_s',)
         """
-        along = attributes_of_number(self.name)
+        along = attributes(self.name)
         variables = {}
         for name, dims in DIMENSIONS.items():
             attrs = OF_RESULTS["Critical"][name].texts()

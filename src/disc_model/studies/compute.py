@@ -2,27 +2,25 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import chain
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import xarray as xr
 
-from disc_model.data.variables import EXCLUDED, PERTURBATIONS, TRUTH, Variable
+from disc_model.data.variables import PERTURBATIONS, TRUTH, Variable, attributes
 from disc_model.display import progress_bar
-from disc_model.mode_units import column_of
+from disc_model.modal_disc import column_of
 from disc_model.parameters import Parameters
-from disc_model.studies.quantity import NUMERICAL
+from disc_model.studies.grid import WORDS
+from disc_model.studies.quantity import NUMERICAL, failed
 
 Point = Mapping[str, Any]
 """What varies, by name: numbers and words of the case, perturbations, and arguments of the function."""
-
-
-def failure(error: Exception) -> xr.Dataset:
-    """A point that an error has ended."""
-    return xr.Dataset({"status": "failed", "message": f"{type(error).__name__}: {error}"})
 
 
 @dataclass(frozen=True)
@@ -34,36 +32,27 @@ class Call:
     function : of a case, which returns a dataset
     make : the case, from the values of a point that are its own; raises `ParameterError`
     options : keywords of the function
-    failed : what stands for the result that an error has ended
+    quantity : its name, if it is one and gives codes for words
     """
 
     function: Callable[..., xr.Dataset]
     make: Callable[..., Parameters]
     options: Mapping[str, Any]
-    failed: Callable[[Exception], xr.Dataset] = failure
+    quantity: str = ""
 
     def __call__(self, point: Point) -> xr.Dataset:
         """What the function returns at a point; status and message alone where it fails."""
+        own = {name: value for name, value in point.items() if is_of_case(name)}
+        kicks = {name: value for name, value in point.items() if name in PERTURBATIONS}
+        others = {name: x for name, x in point.items() if name not in own and name not in kicks}
+        options = {**self.options, **others}
+        if kicks:
+            added = {name.removeprefix("perturbation_"): value for name, value in kicks.items()}
+            options["start"] = options["start"].replace(**added)
         try:
-            return self.function(self.case_at(point), **self.options_at(point))
+            return self.function(self.make(**own), **options)
         except NUMERICAL as error:
-            return self.failed(error)
-
-    def case_at(self, point: Point) -> Parameters:
-        """The case of a point; raises `ParameterError`."""
-        return self.make(**{name: value for name, value in point.items() if is_of_case(name)})
-
-    def options_at(self, point: Point) -> dict[str, Any]:
-        """The keywords of the function at a point, at which the start and arguments may vary."""
-        options = dict(self.options)
-        for name, value in point.items():
-            if name in PERTURBATIONS:
-                kicked = name.removeprefix("perturbation_")
-                kicks = {**options["start"].perturbation, kicked: value}
-                options["start"] = options["start"].replace(perturbation=kicks)
-            elif not is_of_case(name):
-                options[name] = value
-        return options
+            return failed(self.quantity, error)
 
 
 def is_of_case(name: str) -> bool:
@@ -93,97 +82,80 @@ def compute(
 
 def stack(
     results: Sequence[xr.Dataset],
-    places: np.ndarray,
-    sizes: Mapping[str, int],
-    columns: Mapping[str, Variable] | None = None,
+    dims: Mapping[str, pd.DataFrame],
+    columns: Mapping[str, Variable] = MappingProxyType({}),
 ) -> xr.Dataset:
     """Results along the dimensions of a grid.
 
     Parameters
     ----------
-    results : of points
-    places : of each point along the dimensions, shape (points, dimensions)
-    sizes : of the dimensions, by name
+    results : at all points, in the order of the dimensions, of which the last one varies first
+    dims : what varies along each dimension, by its name
     columns : what the table knows of variables, such as what stands for a missing value; elsewhere that is nan, or
         "" among words
     """
-    known = columns or {}
     coords, rows = _common_coordinates(results)
     variables: dict[str, xr.Variable] = {}
-    for name in dict.fromkeys(name for row in rows for name in row):
-        at = [i for i, row in enumerate(rows) if name in row]
-        present = [rows[i][name] for i in at]
-        shapes = {each.shape for each in present}
+    for name in dict.fromkeys(chain.from_iterable(rows)):
+        present = {i: row[name] for i, row in enumerate(rows) if name in row}
+        first, *_ = present.values()
+        shapes = {each.shape for each in present.values()}
         shape = tuple(map(max, zip(*shapes, strict=True)))
-        whole = len(at) == len(rows) and len(shapes) == 1
-        nothing, dtype = _missing(present, whole, known.get(name))
-        array = np.full((*sizes.values(), *shape), nothing, dtype)
-        for i, each in zip(at, present, strict=True):
-            array[(*places[i], *map(slice, each.shape))] = each.values
-        attrs = _common_attributes(present)
-        if present[0].dtype.kind == "b" and dtype is float:
-            attrs |= TRUTH
-        variables[name] = xr.Variable((*sizes, *present[0].dims), array, attrs)
-    stacked = xr.Dataset(variables, coords)
-    return stacked if len(rows) == math.prod(sizes.values()) else _excluded(stacked, places)
+        if name in columns:
+            array = columns[name].empty((len(rows), *shape))
+        else:
+            whole = len(present) == len(rows) and len(shapes) == 1
+            array = _empty([each.dtype for each in present.values()], (len(rows), *shape), whole)
+        for i, each in present.items():
+            cells: Any = (i, *map(slice, each.shape))
+            array[cells] = each.values
+        is_truth = first.dtype.kind == "b" and array.dtype.kind == "f"
+        attrs = first.attrs | (TRUTH if is_truth else {})
+        stacked = array.reshape((*map(len, dims.values()), *shape))
+        variables[name] = xr.Variable((*dims, *first.dims), stacked, attrs)
+    return xr.Dataset(variables, coords).assign_coords(_varied(dims))
+
+
+def _varied(dims: Mapping[str, pd.DataFrame]) -> dict[str, Any]:
+    """What varies as coordinates, whose words have no unit; discs and other objects are words too."""
+    coordinates = {}
+    for dim, frame in dims.items():
+        for name in map(str, frame):
+            values = ["plate" if value is None else value for value in frame[name]]
+            if not all(isinstance(value, int | float | str) for value in values):
+                values = [*map(str, values)]
+            attrs = attributes(name) if is_of_case(name) or name in PERTURBATIONS else {}
+            if name in WORDS:
+                attrs = {"long_name": attrs["long_name"]}
+            coordinates[name] = (dim, values, attrs)
+    return coordinates
 
 
 def _common_coordinates(
     results: Sequence[xr.Dataset],
-) -> tuple[dict[str, xr.Variable], list[dict[str, xr.Variable]]]:
+) -> tuple[dict[Any, xr.Variable], list[dict[Any, xr.Variable]]]:
     """Coordinates along dimensions of the results' own, and the variables of each. A coordinate that
     differs between points is a variable along a dimension without one."""
     coords: dict[Any, xr.Variable] = {}
-    renamed = {}
+    differing = {}
     for result in results:
         for name in result.dims & result.coords.keys():
             own = result.variables[name]
             if not own.equals(coords.setdefault(name, own)):
-                renamed[name] = f"{name}_index"
-    coords = {name: own for name, own in coords.items() if name not in renamed}
+                differing[name] = f"{name}_index"
+    for name in differing:
+        del coords[name]
     rows = []
     for result in results:
-        row = {}
-        for name, x in result.variables.items():
-            if name not in coords:
-                dims = [renamed.get(dim, dim) for dim in x.dims]
-                row[str(name)] = xr.Variable(dims, x.values, x.attrs)
-        rows.append(row)
+        dims = {name: dim for name, dim in differing.items() if name in result.dims}
+        every = result.rename_dims(dims).variables if dims else result.variables
+        rows.append({name: x for name, x in every.items() if name not in coords})
     return coords, rows
 
 
-def _missing(
-    present: Sequence[xr.Variable], whole: bool, column: Variable | None
-) -> tuple[Any, Any]:
-    """What stands for a missing value of a variable, and the type that holds it: whole numbers and truth
-    have none unless all values are there."""
-    if column is not None:
-        return column.unknown, column.dtype
-    dtype = np.result_type(*(each.dtype for each in present))
+def _empty(dtypes: Sequence[Any], shape: Sequence[int], whole: bool) -> np.ndarray:
+    """An array that holds values of these types; whole numbers and truth only if all values are there."""
+    dtype = np.result_type(*dtypes)
     if dtype.kind in "UO":
-        return "", dtype
-    return (0, dtype) if whole and dtype.kind in "biu" else (math.nan, float)
-
-
-def _common_attributes(several: Sequence[xr.Variable]) -> dict[str, Any]:
-    """The attributes on which variables of one name agree."""
-    common = dict(several[0].attrs)
-    for each in several:
-        for name in [*common]:
-            if name not in each.attrs or not np.array_equal(each.attrs[name], common[name]):
-                del common[name]
-    return common
-
-
-def _excluded(stacked: xr.Dataset, places: np.ndarray) -> xr.Dataset:
-    """A study in which variables that have codes have the word `EXCLUDED` for points that a rule of the
-    grid leaves out."""
-    for x in stacked.data_vars.values():
-        if "flag_meanings" in x.attrs:
-            words = [*x.attrs["flag_meanings"].split(), EXCLUDED]
-            left_out = np.ones(x.shape[: places.shape[1]], bool)
-            left_out[tuple(places.T)] = False
-            x.values[left_out] = len(words) - 1
-            numbers = np.arange(len(words), dtype=np.int8)
-            x.attrs |= {"flag_meanings": " ".join(words), "flag_values": numbers}
-    return stacked
+        return np.full(shape, "", dtype)
+    return np.empty(shape, dtype) if whole else np.full(shape, np.nan)

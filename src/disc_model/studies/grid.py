@@ -25,42 +25,26 @@ Points = list[dict[Any, Any]]
 # ---- Axes
 
 
-class _Base(Strict):
-    _unknown = "unknown parameter"
-
-
 class _Columns(Strict):
     _unknown = "cannot be an axis"
 
 
-def _kind(name: str) -> Any:
-    """The type of a parameter or perturbation."""
-    if name in PERTURBATIONS:
-        return Finite
-    field = Parameters.model_fields[name]
-    return Annotated[field.annotation, name, *field.metadata]
-
-
-def _stated(name: str) -> Any:
-    """Description and unit of a value."""
-    if name in PERTURBATIONS:
-        return Field(None, description=PERTURBATIONS[name].long_name)
-    unit: Any = {"unit": Parameters.unit(name)}
-    described = Parameters.model_fields[name].description
-    return Field(None, description=described, json_schema_extra=unit)
-
-
 def _axis(name: str) -> Any:
-    """The type of values along an axis: a list that may mix values and ranges, or a range."""
-    kind: Any = str if name == "disc" else _kind(name)
+    """The type of values along an axis, a list that may mix values and ranges, or a range; and what it is of."""
+    unit = Parameters.unit(name)
+    if name in PERTURBATIONS:
+        kind: Any = Finite
+        text = PERTURBATIONS[name].long_name
+    else:
+        field = Parameters.model_fields[name]
+        kind = str if name == "disc" else Annotated[field.annotation, name, *field.metadata]
+        text = str(field.description)
     listed = BeforeValidator(listed_values, json_schema_input_type=list[kind | Range] | Range)
-    return Annotated[tuple[kind, ...], listed, Field(min_length=1)]
+    values = Annotated[tuple[kind, ...], listed, Field(min_length=1)]
+    return values, Field(None, description=text, json_schema_extra={"unit": unit})
 
 
-_base: dict[str, Any] = {name: (_kind(name), _stated(name)) for name in Parameters.model_fields}
-_axes: dict[str, Any] = {name: (_axis(name), _stated(name)) for name in VARIED}
-Base: Any = create_model("Base", __base__=_Base, **_base)
-"""Some parameters, whose rules between each other are not checked."""
+_axes: dict[str, Any] = {name: _axis(name) for name in VARIED}
 Columns: Any = create_model("Columns", __base__=_Columns, **_axes)
 """An axis for each of several names of `VARIED`."""
 
@@ -90,33 +74,9 @@ def _columns_of(group: Any) -> dict[str, Sequence[Any]]:
     return columns
 
 
-def expand(
-    dims: Mapping[str, pd.DataFrame],
-    rules: Sequence[str] = (),
-    beside: Mapping[str, Any] | None = None,
-) -> pd.DataFrame:
-    """All points of a grid, a row each; their places along its dimensions are the index.
-
-    Parameters
-    ----------
-    dims : columns that vary together, by the name of their dimension
-    rules : such as ``mu_k <= mu_s``, which all points keep (`pandas.DataFrame.eval`)
-    beside : values that do not vary, which rules may use
-    """
-    frames = []
-    for name, columns in dims.items():
-        frames.append(columns.assign(**{f"place of {name}": range(len(columns))}))
-    points = reduce(lambda above, below: above.merge(below, how="cross"), frames)
-    points = points.set_index([f"place of {name}" for name in dims])
-    constant = {name: x for name, x in (beside or {}).items() if name not in points}
-    for rule in rules:
-        try:
-            kept: Any = points.assign(**constant).eval(rule)
-            points = points[kept.to_numpy(bool)]
-        except Exception as error:  # whatever pandas makes of a text
-            told = f"must compare values of points: {error}"
-            raise ParameterError(Fault.of(("where",), rule, told)) from None
-    return points
+def expand(dims: Mapping[str, pd.DataFrame]) -> pd.DataFrame:
+    """All points of a grid, a row each, from the columns along each dimension; the last one varies first."""
+    return reduce(lambda above, below: above.merge(below, how="cross"), dims.values())
 
 
 def thinned(frame: pd.DataFrame, most: int) -> pd.DataFrame:

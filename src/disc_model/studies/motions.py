@@ -26,12 +26,10 @@ SHOWN = ("P", "u", "psi")
 
 def history_from(state: Callable[..., State], case: Parameters, **options: Any) -> xr.Dataset:
     """A history that begins at a state of a quantity, along `sample`."""
-    start = state(case, **options).replace(time=0.0, time_low=0.0)
+    start = state(case, **options).replace(time=0.0)
     # of a cycle: the mean time between releases, at least the free period, which stands for it
     # without releases
-    cycle = LONGEST
-    if case.k_p > 0:
-        cycle = 2 * math.pi * math.sqrt(case.m / case.k_p)
+    cycle = math.tau * math.sqrt(case.m / case.k_p) if case.k_p > 0 else LONGEST
     events = simulate(case, 0.5, initial_state=start).events
     released = events["time"][events["kind"] == "stick_to_slip"].to_numpy()
     if len(released) > 1:

@@ -5,37 +5,25 @@ A quantity imports the engine only where it computes, so that reading a study fi
 
 from __future__ import annotations
 
-import inspect
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import wraps
 from importlib import import_module
-from typing import (
-    TYPE_CHECKING,
-    Annotated,
-    Any,
-    ClassVar,
-    Literal,
-    NamedTuple,
-    Self,
-    TypeVar,
-    cast,
-    get_type_hints,
-)
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, NamedTuple, Self, TypeVar, cast
 
 import numpy as np
 import xarray as xr
-from pydantic import AfterValidator, BeforeValidator, Field, create_model, model_validator
+from pydantic import AfterValidator, BeforeValidator, Field, model_validator
 
 from disc_model.data.coded import words
 from disc_model.data.described import described
 from disc_model.data.variables import OF_QUANTITIES, Variable
 from disc_model.errors import DiscModelError, Fault, ParameterError, raise_faults, suggestion
-from disc_model.mode_units import column_of
+from disc_model.modal_disc import column_of
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.simulation.case import Start
-from disc_model.units import Count, Finite, Positive, Strict, must
+from disc_model.units import Count, Finite, Positive, Strict, arguments_of, must
 
 if TYPE_CHECKING:
     from disc_model.simulation.states import State
@@ -87,7 +75,6 @@ class Range(Ruled):
 
     _rules = (
         (lambda r: r.start < r.stop, "start={0.start:g} must be < stop={0.stop:g}"),
-        (lambda r: math.isfinite(r.stop - r.start), "stop - start must be finite"),
         (lambda r: (r.count is None) != (r.step is None), "must give either count or step"),
         (
             lambda r: r.scale == "linear" or (r.count and r.start > 0),
@@ -103,19 +90,13 @@ class Range(Ruled):
     @property
     def steps(self) -> float:
         """The number of intervals, which rounding may have changed."""
-        if self.step:
-            return (self.stop - self.start) / self.step
-        return (self.count or 2) - 1
+        return (self.stop - self.start) / self.step if self.step else (self.count or 2) - 1
 
     @property
     def values(self) -> list[float]:
         """All values, those inside rounded to 12 digits, so that ranges and lists agree on 0.3."""
-        intervals = round(self.steps)
-        shares = np.arange(1, intervals) / intervals
-        if self.scale == "log":
-            inside = self.start * (self.stop / self.start) ** shares
-        else:
-            inside = self.start + shares * (self.stop - self.start)
+        spaced = np.linspace if self.scale == "linear" else np.geomspace
+        inside = spaced(self.start, self.stop, round(self.steps) + 1)[1:-1]
         return [self.start, *(float(f"{value:.12g}") for value in inside), self.stop]
 
 
@@ -147,17 +128,6 @@ Values = Annotated[
 """Numbers: a list of them and of ranges {start, stop, count or step, scale}, or one range."""
 
 
-def _started(given: Any) -> Any:
-    """A start of a motion: perturbations by name, and what `Start` has."""
-    if not isinstance(given, Mapping):
-        return given
-    kicks = {name: x for name, x in given.items() if name in ("u", "u_velocity", "f")}
-    others = {name: value for name, value in given.items() if name not in kicks}
-    return {**others, "perturbation": kicks} if kicks else others
-
-
-Starting = Annotated[Start, BeforeValidator(_started)]
-"""A start: perturbations {u, u_velocity, f} of the static start, or {prerun: {parameters, time}}."""
 STATIC = Start()
 COME_TO = (
     "What the motion has come to: a while after the first separation, on the cycle it settled to, "
@@ -208,25 +178,9 @@ class Quantity:
 
 QUANTITIES: dict[str, Quantity] = {}
 """All quantities by name; `quantity_of` fills it."""
-HOMES = {
-    "basins": "basins",
-    "bifurcation": "bifurcation",
-    "branches": "branches",
-    "campbell": "campbell",
-    "critical_speed": "critical_speed",
-    "floquet": "cycles",
-    "hysteresis": "hysteresis",
-    "locking": "locking",
-    "lyapunov_exponents": "cycles",
-    "neutral_curves": "cycles",
-    "outcome": "outcome",
-    "ramps": "ramps",
-    "range_law": "range_law",
-    "regions": "regions",
-    "sensitivity": "sensitivity",
-    "sliding_modes": "sliding",
-}
-"""Modules of `disc_model.studies.quantities`; a new quantity is added here."""
+HOMES = {name: name for name in sorted(OF_QUANTITIES.keys() - {"motions"})}
+HOMES |= dict.fromkeys(("floquet", "lyapunov_exponents", "neutral_curves"), "cycles")
+"""Modules of `disc_model.studies.quantities`, by quantities; the table of variables has all."""
 
 
 def quantity_of(name: str) -> Quantity:
@@ -253,80 +207,45 @@ def quantity(
 
     def mark(function: F) -> F:
         name = function.__name__
-        options = options_of(function, rules)
-        fields = options.model_fields.items()
-        defaults = {key: field.default for key, field in fields if not field.is_required()}
+        options = cast(type[Ruled], arguments_of(function, Ruled))
+        options._rules = rules
         QUANTITIES[name] = Quantity(name, function, options, points_per_job, tuple(own), motion)
 
         @wraps(function)
         def checked(case: Parameters, *args: Any, **given: Any) -> xr.Dataset:
             raise_faults(foreign_case(case))
-            asked = {**defaults, **dict(zip(options.model_fields, args, strict=False)), **given}
+            asked = {**dict(zip(options.model_fields, args, strict=False)), **given}
             chosen = options.model_validate(asked)
             found = function(case, **dict(chosen))
             said = {"parameters": case.canonical_json, "options": chosen.model_dump_json()}
             if not found["message"].dims:
                 said["message"] = found["message"].item()
                 found = found.drop_vars("message")
-            scalars = [x for x in found.dims if isinstance(asked.get(str(x)), int | float)]
+            several = [dim for dim in found.dims if dim in options.model_fields]
+            scalars = [dim for dim in several if np.ndim(asked.get(str(dim), 0)) == 0]
             found = found.squeeze(scalars, drop=True).assign_attrs(said)
             return words(described(found, name, dict(chosen)))
 
         function.__qualname__ += ".__wrapped__"  # by which pickle finds it
-        checked.__doc__ = _documented(function)
         return cast(F, checked)
 
     return mark
-
-
-RETURNS = """
-Returns
--------
-xarray.Dataset
-    The variables that a study of this quantity has, with words as words; attributes are the case (`parameters`), the
-    `options`, and in `message` what went wrong or is missing
-"""
-RAISES = """
-Raises
-------
-ParameterError
-    If an argument breaks a rule; the message names the argument, its value and the rule.
-"""
-
-
-def _documented(function: Callable[..., Any]) -> str:
-    """The docstring of a quantity, with what holds of all of them."""
-    before, heading, examples = (inspect.getdoc(function) or "").partition("\nExamples\n--------")
-    for section, text in (("Returns", RETURNS), ("Raises", RAISES)):
-        if f"\n{section}\n---" not in before:
-            before = f"{before.rstrip()}\n{text}"
-    return before + heading + examples
-
-
-def options_of(function: Callable[..., Any], rules: Rules) -> type[Ruled]:
-    """The options of a function: its keywords after the case, with their types and defaults."""
-    hints = get_type_hints(function, include_extras=True)
-    _, *parameters = inspect.signature(function).parameters.values()
-    fields: dict[str, Any] = {}
-    for parameter in parameters:
-        default = ... if parameter.default is parameter.empty else parameter.default
-        fields[parameter.name] = (hints[parameter.name], default)
-    model = create_model(function.__name__, __base__=Ruled, **fields)
-    model._rules = rules
-    return model
 
 
 # ---- What a function has found, as a dataset
 
 
 def failed(name: str, error: Exception) -> xr.Dataset:
-    """The dataset of a point of a quantity that an error has ended."""
+    """The dataset of a point of a quantity that an error has ended; of another function status and message
+    alone, in words."""
     from disc_model.simulation.result import STATUS_OF
 
+    message = f"{type(error).__name__}: {error}"
+    if not name:
+        return xr.Dataset({"status": "failed", "message": message})
     word = dict[Any, Any](STATUS_OF).get(type(error), "failed")
     known = OF_QUANTITIES[name]["columns"]["status"].flags
-    status = word if word in known else "failed"
-    return found(name, {"status": status}, f"{type(error).__name__}: {error}")
+    return found(name, {"status": word if word in known else "failed"}, message)
 
 
 def found(

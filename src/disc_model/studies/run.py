@@ -10,27 +10,20 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
 import pandas as pd
 import xarray as xr
 
 from disc_model.data.coded import table_of
-from disc_model.data.dataset import CONVENTIONS, json_attribute
+from disc_model.data.dataset import CONVENTIONS
 from disc_model.data.described import described
-from disc_model.data.variables import (
-    EXCLUDED,
-    OF_QUANTITIES,
-    Variable,
-    attributes,
-    attributes_of_mode,
-)
-from disc_model.parameters import Disc, Parameters
+from disc_model.data.variables import OF_QUANTITIES, Variable
+from disc_model.parameters import Disc
 from disc_model.provenance import git_commit, physics_hash, versions_text
 from disc_model.simulation.named_case import run_case
 from disc_model.studies.compute import Call, compute, stack
-from disc_model.studies.grid import VARIED, WORDS, Points, case_of
+from disc_model.studies.grid import VARIED, Points, case_of
 from disc_model.studies.motions import history_from
-from disc_model.studies.quantity import failed, quantity_of
+from disc_model.studies.quantity import quantity_of
 
 if TYPE_CHECKING:
     from disc_model.studies.study import Study
@@ -49,14 +42,7 @@ def call_of(layout: Layout) -> Call:
     options = quantity.options.model_validate(layout["options"])
     discs = {name: Disc.model_validate(disc) for name, disc in layout["discs"].items()}
     make = partial(case_of, {**quantity.unset(options), **layout["base"]}, discs)
-    return Call(quantity.function, make, dict(options), partial(failed, quantity.name))
-
-
-def _known_or_made(
-    case: Parameters, first: Mapping[str, Any], make: Callable[..., Parameters], **own: Any
-) -> Parameters:
-    """The case of the first point, which is made already, or another one."""
-    return case if own == first else make(**own)
+    return Call(quantity.function, make, dict(options), quantity.name)
 
 
 def run_job(job: str, known: Iterable[xr.Dataset] = ()) -> xr.Dataset:
@@ -64,103 +50,82 @@ def run_job(job: str, known: Iterable[xr.Dataset] = ()) -> xr.Dataset:
 
     Parameters
     ----------
-    job : a text of `Grid.jobs`
+    job : a text of `Study.jobs`
     known : results of other jobs on the same quantity, options and base, from which points are taken
     """
     layout = json.loads(job)
     points = layout["points"]
-    there = {tuple(point.items()): row for part in known for point, row in points_of(part)}
-    missing = [point for point in points if tuple(point.items()) not in there]
-    for point, row in zip(missing, compute(call_of(layout), missing), strict=True):
-        there[tuple(point.items())] = row
+    there = {str(point): row for part in known for point, row in points_of(part)}
+    missing = [point for point in points if str(point) not in there]
+    there |= zip(map(str, missing), compute(call_of(layout), missing), strict=True)
     log.info("%d of %d points computed", len(missing), len(points))
-    rows = [there[tuple(point.items())] for point in points]
+    rows = [there[str(point)] for point in points]
     return _along_points(points, rows, quantity_of(layout["quantity"]).columns)
 
 
 def run_motions(job: str) -> xr.Dataset:
-    """Short histories of the motion along `point` and `sample`, for a text of `Grid.motions`."""
+    """Histories along `point` and `sample`, for a text of `Study.motions`."""
     layout = json.loads(job)
     motion = quantity_of(layout["quantity"]).motion
     assert motion is not None
     history = partial(history_from, motion.state)
-    call = replace(call_of(layout), function=history, failed=partial(failed, "motions"))
-    columns = OF_QUANTITIES["motions"]["columns"]
+    call = replace(call_of(layout), function=history, quantity="motions")
     points = layout["points"]
-    return described(_along_points(points, compute(call, points), columns), "motions")
+    rows = compute(call, points)
+    return described(_along_points(points, rows, OF_QUANTITIES["motions"]["columns"]), "motions")
 
 
 def _along_points(
     points: Points, rows: Sequence[xr.Dataset], columns: Mapping[str, Variable]
 ) -> xr.Dataset:
     """Results in one dataset, with what varies as coordinates along `point`."""
-    places = np.arange(len(rows))[:, np.newaxis]
-    varied = {name: (POINT, [point[name] for point in points]) for name in points[0]}
-    results = stack(rows, places, {POINT: len(rows)}, columns)
-    return results.assign_coords(varied).assign_attrs(names=json.dumps([*varied]))
+    frame = pd.DataFrame(points)
+    return stack(rows, {POINT: frame}, columns).assign_attrs(names=json.dumps([*frame]))
 
 
-def points_of(part: xr.Dataset) -> Iterable[tuple[dict[str, Any], xr.Dataset]]:
+def points_of(part: xr.Dataset) -> Iterable[tuple[dict[Any, Any], xr.Dataset]]:
     """The points of a job's results, and the result at each."""
     names = json.loads(part.attrs["names"])
     results = part.drop_vars(names)
-    columns = [part[name].values.tolist() for name in names]
-    for i in range(part.sizes[POINT]):
-        yield {name: x[i] for name, x in zip(names, columns, strict=True)}, results.isel(point=i)
+    points = pd.DataFrame({name: part[name].values for name in names}).to_dict("records")
+    for i, point in enumerate(points):
+        yield point, results.isel(point=i)
 
 
-def merge(
-    layout: Layout,
-    rows: Sequence[Mapping[str, Any]],
-    results: Sequence[xr.Dataset],
-    attrs: Mapping[str, str],
-) -> xr.Dataset:
+def merge(layout: Layout, results: Sequence[xr.Dataset], attrs: Mapping[str, str]) -> xr.Dataset:
     """The results at all points of a grid over its dimensions, which a variable has in the order of the
     parameters, before its own.
 
     Parameters
     ----------
     layout : of `Study.layout`
-    rows : what varies at the points
-    results : of these
+    results : at all points, in the order of `Study.points`
     attrs : of the study
     """
     quantity = quantity_of(layout["quantity"])
-    points = pd.DataFrame(rows)
-    coords: dict[str, Any] = {}
-    sizes = {}
-    places = []
-    for dim, columns in layout["dims"].items():
-        frame = pd.DataFrame(columns)
-        known = pd.MultiIndex.from_frame(frame)
-        places.append(known.get_indexer(pd.MultiIndex.from_frame(points[[*columns]])))
-        sizes[dim] = len(frame)
-        for name, values in columns.items():
-            coords[name] = (dim, values, coordinate_attributes(name))
-    study = stack(results, np.transpose(places), sizes, quantity.columns).assign_coords(coords)
-    ranks = {dim: VARIED.index(next(iter(columns))) for dim, columns in layout["dims"].items()}
-    ranks |= {name: VARIED.index(name) for name in map(str, study.dims) if name in VARIED}
-    ranked = sorted(study.dims, key=lambda dim: ranks.get(str(dim), len(VARIED)))
-    options = layout["options"]
-    stated = {name: layout[name] for name in ("options", "base", "discs")}
-    if not stated["discs"]:
-        del stated["discs"]
+    dims = {dim: pd.DataFrame(columns) for dim, columns in layout["dims"].items()}
+    study = stack(results, dims, quantity.columns)
+
+    def rank(dim: Any) -> int:
+        name = dims[dim].columns[0] if dim in dims else dim
+        return VARIED.index(name) if name in VARIED else len(VARIED)
+
+    stated = {
+        name: layout[name]
+        for name in ("options", "base", "discs")
+        if layout[name] or name != "discs"
+    }
     every = {
         "Conventions": CONVENTIONS,
         **attrs,
         "quantity": quantity.name,
-        **{name: json_attribute(x) for name, x in stated.items()},
+        **{name: json.dumps(value, sort_keys=True) for name, value in stated.items()},
         "git_commit": git_commit(),
         "source_hash": physics_hash(),
         "versions": versions_text(),
     }
-    return described(study.transpose(*ranked).assign_attrs(every), quantity.name, options)
-
-
-def coordinate_attributes(name: str) -> dict[str, Any]:
-    """Attributes of what varies as a coordinate; words have no unit."""
-    known = attributes(name) if name in VARIED else attributes_of_mode(name)
-    return {"long_name": known["long_name"]} if name in WORDS else known
+    ranked = study.transpose(*sorted(study.dims, key=rank)).assign_attrs(every)
+    return described(ranked, quantity.name, layout["options"])
 
 
 # ---- Points of which there is something to say
@@ -169,7 +134,7 @@ def coordinate_attributes(name: str) -> dict[str, Any]:
 def told_points(study: xr.Dataset) -> tuple[pd.DataFrame, pd.DataFrame]:
     """Tables of the points without a result, and of those with a result and a message."""
     points = table_of(study[["status", "message"]])
-    known = points["status"].isin(["ok", EXCLUDED])
+    known = points["status"] == "ok"
     return points[~known], points[known & (points["message"] != "")]
 
 
@@ -211,9 +176,9 @@ def run_study(
 
     A bifurcation diagram:
 
-    >>> turns = {"study": "turns", "quantity": "bifurcation", "options": {"transient": 20}}
-    >>> turns |= {"base": {"N": 385}, "axes": {"Omega": [14, 15]}}
-    >>> dm.plot_sweep(dm.run_study(turns)).get_xlabel()
+    >>> study = {"study": "samples", "quantity": "bifurcation", "options": {"transient": 20}}
+    >>> study |= {"base": {"N": 385}, "axes": {"Omega": [14, 15]}}
+    >>> dm.plot_sweep(dm.run_study(study)).get_xlabel()
     'Speed Ω (rad/s)'
     """
     # needs yaml, of the extra `workflow`
@@ -222,11 +187,9 @@ def run_study(
     folder = Path() if isinstance(source, Mapping) else Path(source).parent
     study = parse_study(source, folder) if isinstance(source, Mapping) else load_study(source)
     grids, names = study.all_grids([folder])
-    datasets: dict[str, Any] = {}
-    for name in names:
-        datasets[name] = _run_grid(grids[name], map, progress)
-    if study.specs:
-        trees = dict(zip(study.specs, map(run_case, study.specs.values()), strict=True))
+    datasets: dict[str, Any] = {name: _run_grid(grids[name], map, progress) for name in names}
+    if study.cases:
+        trees = dict(zip(study.cases, map(run_case, study.cases.values()), strict=True))
         datasets["cases"] = xr.DataTree(children=trees)
     if len(datasets) == 1:
         return next(iter(datasets.values()))
@@ -235,8 +198,7 @@ def run_study(
 
 def _run_grid(study: Study, map: Callable[..., Iterable[Any]], progress: bool) -> xr.Dataset:
     """The grid of a study, whose points are computed here."""
-    call = call_of(study.layout)
-    call = replace(call, make=partial(_known_or_made, *study.case, call.make))
     points: Points = study.points.to_dict("records")
+    call = call_of(study.layout)
     results = compute(call, points, map=map, title=study.of.name, progress=progress)
-    return merge(study.layout, points, results, study.attrs)
+    return merge(study.layout, results, study.attrs)

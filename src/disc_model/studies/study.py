@@ -12,7 +12,7 @@ from functools import cached_property, reduce
 from glob import glob
 from pathlib import Path
 from types import MappingProxyType
-from typing import Annotated, Any, Literal, NamedTuple, Self
+from typing import Annotated, Any, NamedTuple, Self
 
 import numpy as np
 import pandas as pd
@@ -22,30 +22,21 @@ from pydantic import AfterValidator, BeforeValidator, Field, PlainValidator, Wit
 from yaml.constructor import ConstructorError
 
 from disc_model.data.files import MissingFile, unreadable
-from disc_model.data.variables import BESIDE_WINDOWS, PERTURBATIONS, values_text
+from disc_model.data.variables import PERTURBATIONS, values_text
 from disc_model.disc.table import disc_of_table
 from disc_model.display import counted
 from disc_model.errors import Fault, ParameterError, raise_faults, require, suggestion
 from disc_model.figures.schema import CasePlot, Kind, Plot
 from disc_model.figures.shown import IN_WORDS, factors_of
-from disc_model.parameters import DEFAULTS, Disc, Parameters
+from disc_model.parameters import Disc, Parameters
 from disc_model.provenance import content_key, physics_hash
-from disc_model.simulation.case import (
-    CaseSpec,
-    Poincare,
-    Ramp,
-    SomeParameters,
-    Span,
-    Start,
-    Window,
-    ramp_faults,
-)
-from disc_model.studies.grid import Base, Columns, case_of, dimensions, expand, thinned
+from disc_model.simulation.case import CaseSpec, Name, RecordSpec, SomeParameters, without_null
+from disc_model.studies.grid import Columns, case_of, dimensions, expand, thinned
 from disc_model.studies.quantity import HOMES, Quantity, quantity_of
-from disc_model.units import Count, Seconds, Strict, Tolerance, must
+from disc_model.units import Count, Strict, Tolerance
 
 ALL_MOTIONS = 100  # points of a grid up to which a motion of each is stored, some 3 kB each
-GRID_KEYS = frozenset({"options", "axes", "zip", "where", "points_per_job", "discs"})
+GRID_KEYS = frozenset({"options", "axes", "zip", "points_per_job", "discs"})
 
 
 class StudyError(ParameterError):
@@ -101,56 +92,6 @@ def inherit(base: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, An
     return merged
 
 
-# ---- Named cases
-
-Name = Annotated[str, pydantic.StringConstraints(pattern=r"^[A-Za-z]\w*$", max_length=100)]
-
-
-_RULE = "must not be the name of a parameter or variable of results"
-WindowName = Annotated[Name, AfterValidator(must(lambda name: name not in BESIDE_WINDOWS, _RULE))]
-
-
-class RecordSpec(Strict):
-    """What is recorded of a case. Figures and claims refer to windows by their names."""
-
-    windows: dict[WindowName, Window | None] = Field({})  # None drops one that is inherited
-    poincare: Poincare | None = None
-    events: bool | Span = True
-
-
-class NamedCase(Strict):
-    """One named simulation of a study."""
-
-    title: str = ""
-    reference: str = ""
-    parameters: Annotated[
-        Parameters, PlainValidator(Parameters.model_validate, json_schema_input_type=SomeParameters)
-    ]
-    t_end: Seconds
-    tol: Tolerance = 1e-10
-    stop_at: Literal["first_separation"] | None = None
-    start: Start = Start()
-    ramps: tuple[Ramp, ...] = ()
-    record: RecordSpec = RecordSpec()
-
-    @cached_property
-    def spec(self) -> CaseSpec:
-        """What is simulated; raises `ParameterError` with places inside the case."""
-        record = self.record
-        raise_faults([*ramp_faults(self.parameters, self.ramps, record.poincare is not None)])
-        windows = tuple((name, x) for name, x in record.windows.items() if x is not None)
-        events = Span() if record.events is True else record.events or None
-        beside = {"windows": windows, "poincare": record.poincare, "events": events}
-        own = {name: getattr(self, name) for name in CaseSpec.model_fields if hasattr(self, name)}
-        return CaseSpec(**own, **beside)
-
-    @pydantic.model_validator(mode="after")
-    def _consistent(self) -> Self:
-        """Check the rules between the values of the case, and names of windows."""
-        self.spec.longest_sections  # noqa: B018
-        return self
-
-
 # ---- Figures
 
 
@@ -170,11 +111,6 @@ _KIND = Annotated[
 ]
 Figure = Annotated[Kind, PlainValidator(_figure, json_schema_input_type=_KIND)]
 """A figure of any kind; `workflow/schemas/write_schema.py` adds the keys of each kind to the schema."""
-
-
-def _given(figures: dict[str, Kind | None]) -> dict[str, Any]:
-    """The figures that null does not drop."""
-    return {name: plot for name, plot in figures.items() if plot is not None}
 
 
 class FigureEntry(NamedTuple):
@@ -211,26 +147,25 @@ class Study(Strict):
 
     study: Name
     title: str = ""
-    base: Base = Base()
-    figures: Annotated[dict[Name, Figure], AfterValidator(_given)] = Field({})
+    base: SomeParameters = SomeParameters()
+    figures: Annotated[dict[Name, Figure], AfterValidator(without_null)] = Field({})
     tol: Tolerance | None = 1e-10  # of all cases, as `record`
     record: RecordSpec = RecordSpec()
-    cases: Annotated[dict[Name, NamedCase], Field(min_length=1)] = Field({})
+    cases: Annotated[dict[Name, CaseSpec], Field(min_length=1)] = Field({})
     claims: bool = False  # whether the paper's claims and tables are checked against the cases
     quantity: Annotated[
         str | None,
         AfterValidator(lambda name: name and quantity_of(name).name),
         WithJsonSchema({"enum": [*HOMES]}),
     ] = None
-    options: Annotated[Any, PlainValidator(_options), WithJsonSchema({"type": "object"})] = None
+    options: Annotated[Any, PlainValidator(_options), WithJsonSchema({"type": "object"})] = Field(
+        {}, validate_default=True
+    )
     axes: Columns = Columns()
     zip: Annotated[
         tuple[Columns, ...],
         BeforeValidator(_several, json_schema_input_type=Columns | list[Columns]),
     ] = ()
-    where: Annotated[
-        tuple[str, ...], BeforeValidator(_several, json_schema_input_type=str | list[str])
-    ] = ()  # rules that points keep, such as mu_k <= mu_s, as pandas.DataFrame.query has them
     points_per_job: Annotated[Count, Field(ge=1)] | None = None
     discs: dict[str, Annotated[Disc, WithJsonSchema({"type": "string"})]] = Field({})
     studies: tuple[str, ...] = ()  # further files of grid studies, * stands for any part of a name
@@ -245,7 +180,7 @@ class Study(Strict):
         if self.has_grid:
             raise_faults([*self._wrong_axes()])
             self.case  # noqa: B018
-        recorded = {name: spec.longest_sections for name, spec in self.specs.items()}
+        recorded = {name: spec.longest_sections for name, spec in self.cases.items()}
         faults = []
         for name, plot in self.figures.items():
             wrong: Iterable[Fault] = ()
@@ -258,11 +193,6 @@ class Study(Strict):
         return self
 
     # ---- Named cases
-
-    @property
-    def specs(self) -> dict[str, CaseSpec]:
-        """What is simulated of each case."""
-        return {name: case.spec for name, case in self.cases.items()}
 
     @property
     def labels(self) -> dict[str, dict[str, str]]:
@@ -310,38 +240,33 @@ class Study(Strict):
     @cached_property
     def points(self) -> pd.DataFrame:
         """What varies, a row for each point; raises `ParameterError`."""
-        return expand(self.dims, self.where, {**DEFAULTS, **self._base})
-
-    @property
-    def _base(self) -> dict[str, Any]:
-        """The values that the file gives to all points."""
-        return dict(self.base.model_dump(exclude_unset=True))
+        return expand(self.dims)
 
     @cached_property
-    def case(self) -> tuple[Parameters, dict[str, Any]]:
-        """The case of the first point that is possible, and what of it varies; raises `ParameterError`,
-        with what is wrong at the last point, if none is."""
-        faults = [Fault(("where",), "", "leaves no point")]
-        base = {**self.of.unset(self.options), **self._base}
+    def case(self) -> Parameters:
+        """The case of the first point that is possible; raises `ParameterError`, with what is wrong at the
+        last point, if none is."""
+        base = {**self.of.unset(self.options), **self.base.model_dump(exclude_unset=True)}
+        wrong = ParameterError()
         for point in self.points.to_dict("records"):
             own = {str(name): x for name, x in point.items() if name in Parameters.model_fields}
             try:
-                return case_of(base, self.discs, **own), own
+                return case_of(base, self.discs, **own)
             except ParameterError as error:
-                faults = []
-                for each in error.faults:
-                    faults.append(each.inside(("axes" if each.path[0] in own else "base",)))
+                wrong = error
+        faults = []
+        for fault in wrong.faults:
+            faults.append(fault.inside(("axes" if fault.path[0] in self._varied else "base",)))
         raise ParameterError(*faults)
 
     @cached_property
     def fixed(self) -> dict[str, Any]:
         """The values of the case that all points have: not of what varies, nor those that something else
         replaces."""
-        case, _ = self.case
         without = {*self._varied}
-        if case.damping_ratio is not None:
+        if self.case.damping_ratio is not None:
             without.add("D_star")
-        return {name: x for name, x in case.canonical.items() if name not in without}
+        return {name: x for name, x in self.case.canonical.items() if name not in without}
 
     @property
     def layout(self) -> dict[str, Any]:
@@ -382,17 +307,14 @@ class Study(Strict):
         few = dict(self.dims)
         if len(self.points) > ALL_MOTIONS:
             few = {dim: thinned(frame, motion.number) for dim, frame in self.dims.items()}
-        points = expand(few, self.where, {**DEFAULTS, **self._base}).to_dict("records")
+        points = expand(few).to_dict("records")
         text = _text({**self.layout, "code": physics_hash(), "points": points})
-        return {content_key(text): text} if points else {}
+        return {content_key(text): text}
 
     @property
     def attrs(self) -> dict[str, str]:
         """Attributes of the merged dataset that describe the study."""
-        attrs = {"study": self.study, "title": self.title}
-        if self.where:
-            attrs["where"] = " and ".join(f"({rule})" for rule in self.where)
-        return attrs
+        return {"study": self.study, "title": self.title}
 
     @property
     def page(self) -> dict[str, Any]:
@@ -447,7 +369,7 @@ class Study(Strict):
         """A figure, whose caption states what its cases are: the values that differ from Table 1 and do not
         vary."""
         if isinstance(plot, CasePlot):
-            cases = [self.specs[case].parameters for case in plot.cases]
+            cases = [self.cases[case].parameters for case in plot.cases]
             values = "; ".join(dict.fromkeys(values_text(dict(p)) for p in cases))
             modes = " and ".join(
                 IN_WORDS[each] for each in sorted({p.normalization for p in cases})
@@ -555,8 +477,8 @@ def parse_study(raw: Any, folder: Path, source: str = "study") -> Study:
 
 
 def _inherited(raw: Mapping[str, Any]) -> dict[str, Any]:
-    """The content of a file, in which each case has what it inherits, options are a mapping, and discs along
-    an axis that `discs` does not name stand for themselves."""
+    """The content of a file, in which each case has what it inherits, and discs along an axis that `discs`
+    does not name stand for themselves."""
     content = dict(raw)
     keys = {"base": "parameters", "record": "record", "tol": "tol"}
     shared = {inner: content[key] for key, inner in keys.items() if content.get(key) is not None}
@@ -566,8 +488,6 @@ def _inherited(raw: Mapping[str, Any]) -> dict[str, Any]:
             name: {"parameters": {}, **inherit(shared, case)} if isinstance(case, Mapping) else case
             for name, case in cases.items()
         }
-    if content.get("quantity") is not None:
-        content.setdefault("options", {})
     discs = dict(mapping(content.get("discs")))
     for group in (content.get("axes"), *_several(content.get("zip"))):
         for name in _several(mapping(group).get("disc", [])):

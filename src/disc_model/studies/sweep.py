@@ -13,14 +13,13 @@ import pandas as pd
 import xarray as xr
 
 from disc_model.data.columns import result_dataset
-from disc_model.data.variables import COMMON, OF_RESULTS
+from disc_model.data.variables import COMMON
 from disc_model.errors import Fault, ParameterError, raise_faults, require, suggestion
-from disc_model.mode_units import mode_number_in_si
+from disc_model.modal_disc import si_unit_of_mode
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.provenance import versions_text
 from disc_model.studies.compute import Call, compute, is_of_case, stack
 from disc_model.studies.grid import Points, expand
-from disc_model.studies.run import coordinate_attributes
 from disc_model.units import in_si, is_number
 
 
@@ -87,41 +86,25 @@ def sweep(
         raise_faults([Fault((name,), "", rule + suggestion(name, known)) for name in unknown])
     dims = _dimensions(case, varied, dict({} if zip is None else zip), over)
     points = expand(dims)
-    rows: Points = points.to_dict("records")
-
     name = str(getattr(function, "__name__", type(function).__name__))
     call = Call(partial(_gathered, function, name, {*points, *dims}), case.replace, options)
+    rows: Points = points.to_dict("records")
     results = compute(call, rows, map=map, title=name, progress=progress)
-    if name == "steady_sliding":
-        _number_fastest(call, rows, results)
-    sizes = {dim: len(frame) for dim, frame in dims.items()}
-    found = stack(results, np.array([*points.index], int).reshape(len(rows), -1), sizes)
+    found = stack(results, dims)
     messages = found["message"].values.ravel().tolist()
     if all(text.startswith("ParameterError") for text in messages):
         raise ParameterError(f"no point of the sweep has a result: {messages[0]}")
     for said in ("status", "message"):
         found[said].attrs.setdefault("long_name", COMMON[said].long_name)
-    given = {key: x.default for key, x in arguments.items()}
-    used = {key: x for key, x in given.items() if isinstance(x, bool | int | float | str)}
-    used |= options
+    defaults = {key: x.default for key, x in arguments.items()}
+    used = {key: x for key, x in defaults.items() if isinstance(x, bool | int | float | str)}
     attrs = {
         "function": name,
-        "options": json.dumps(used, sort_keys=True, default=repr),
+        "options": json.dumps(used | options, sort_keys=True, default=repr),
         "parameters": case.canonical_json,
         "versions": versions_text(),
     }
-    return found.assign_coords(_coordinates(dims, over)).assign_attrs(attrs)
-
-
-def _number_fastest(call: Call, rows: Points, results: Sequence[xr.Dataset]) -> None:
-    """Add the number of the mode that grows fastest to results of steady sliding, followed from point to point."""
-    from disc_model.stability.sliding import follow_modes
-
-    found = [i for i, result in enumerate(results) if result.get("frequency", 0) > 0]
-    followed = follow_modes([call.case_at(rows[i]) for i in found])
-    for i, one in zip(found, followed, strict=True):
-        number = 1 + one.numbers[np.argmax(one.modes.growth_rate)]
-        results[i]["mode"] = ((), float(number), OF_RESULTS["SteadySliding"]["mode"].texts())
+    return found.assign_attrs(attrs)
 
 
 def _gathered(
@@ -162,28 +145,7 @@ def _column(name: str, values: Any, case: Parameters) -> list[Any]:
         (known, name, values, f"is no number of the case{suggestion(name, case.numbers)}"),
     )
     faults: list[Fault] = []
-    column = []
-    for value in np.asarray(values, dtype=object).tolist():
-        if name in Parameters.model_fields:
-            value = in_si(value, Parameters.unit(name), faults, (name,))
-        elif isinstance(value, str):
-            value = mode_number_in_si(name, value, faults)
-        column.append(float(value) if is_number(value) else value)
+    given = np.asarray(values, dtype=object).tolist()
+    column = in_si(given, Parameters.unit(name) or si_unit_of_mode(name), faults, (name,))
     raise_faults(faults)
-    return column
-
-
-def _coordinates(dims: Mapping[str, pd.DataFrame], over: Mapping[str, Any]) -> dict[str, Any]:
-    """Values and attributes of all that varies, along their dimensions; mappings are words."""
-    coordinates: dict[str, Any] = {}
-    for dim, frame in dims.items():
-        for key, column in frame.items():
-            name = str(key)
-            values = [*column]
-            attrs: dict[str, Any] = {}
-            if name not in over:
-                attrs = coordinate_attributes(name)
-            elif not all(isinstance(value, int | float | str) for value in values):
-                values = [*map(str, values)]
-            coordinates[name] = (dim, values, attrs)
-    return coordinates
+    return [float(value) if is_number(value) else value for value in column]

@@ -14,11 +14,10 @@ from pydantic import InstanceOf
 
 from disc_model.arrays import Array, Mask
 from disc_model.data.columns import with_complex_values, with_real_parts
-from disc_model.data.swept_branches import branch_of_sweep, is_of_sweep
 from disc_model.data.variables import (
     COORDINATES,
     OF_RESULTS,
-    attributes_of_number,
+    attributes,
     unit_of_parameter,
     value_with_unit,
 )
@@ -202,10 +201,7 @@ class Branch:
     @classmethod
     def from_dataset(cls, data: xr.Dataset) -> Branch:
         """The branch of a dataset that `to_dataset` has made, also one that was saved and loaded, to
-        plot, and to start again from its cycles.
-
-        Of a sweep of branches, `data` is one point, such as ``swept.sel(N=300)``. Raises
-        `ParameterError` if it is another dataset, or a point of a sweep that has failed.
+        plot, and to start again from its cycles; raises `ParameterError` if it is another dataset.
 
         Examples
         --------
@@ -218,12 +214,10 @@ class Branch:
         >>> dm.continue_cycle(branch.case_at(-1), "Omega", (14.7, 14.9), guess=branch.state(-1))
         Branch(... cycles, Omega from 14.7 to 14.9 rad/s, 0 folds; ended: bound)
         """
-        if is_of_sweep(data):
-            data = branch_of_sweep(data)
         names = {"multipliers_real", "releases", "special_kind", "u_max", "a", "special_a"}
         attrs = {"ended", "parameters", "free_parameters"}
         known = isinstance(data, xr.Dataset) and names <= {*data} and attrs <= {*data.attrs}
-        rule = "must be a dataset of Branch.to_dataset, or a point of a sweep, whole and unchanged"
+        rule = "must be a dataset of Branch.to_dataset, whole and unchanged"
         require((known, "data", type(data).__name__, rule))
         return cls(with_complex_values(data))
 
@@ -377,7 +371,7 @@ def _variables(
     variables = {dim: xr.Variable(dim, np.arange(rows.sum()), known[dim].attributes)}
     for name, column in columns.items():
         second = "mode" if name in COORDINATES else "multiplier"
-        attrs = known[name].attributes if name in known else attributes_of_number(name)
+        attrs = known[name].attributes if name in known else attributes(name)
         variables[begin + name] = xr.Variable((dim, second)[: column.ndim], column[rows], attrs)
     return variables
 

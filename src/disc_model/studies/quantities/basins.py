@@ -81,6 +81,11 @@ def basins(
         as not separating at the lower ones, and `separating_fraction` is of the other starts; `message` counts the
         starts that are undecided within the horizon
 
+    Raises
+    ------
+    ParameterError
+        If an argument breaks a rule; the message names the argument, its value and the rule.
+
     Examples
     --------
     >>> import disc_model as dm
@@ -101,12 +106,11 @@ def basins(
         """The outcome of a perturbation of any energy in the direction of start i of the j-th energy."""
         return known.follow(random_perturbation(case, state, energy, (seed, j, i)))
 
+    results = np.empty((len(energies), n_starts), dtype=object)
     # the first starts of all energies come first
-    by_start = []
-    for i in range(n_starts):
-        by_start.append([follow(energy, i, j) for j, energy in enumerate(energies)])
-    results = [*zip(*by_start, strict=True)]
-    every = [reached for row in results for reached in row]
+    for i, j in np.ndindex(n_starts, len(energies)):
+        results[j, i] = follow(energies[j], i, j)
+    every = results.ravel().tolist()
 
     # by decreasing number of starts; of equal numbers the one reached first comes first
     counts = Counter(reached.attractor for reached in every if reached.attractor is not None)
@@ -125,12 +129,12 @@ def basins(
     if undecided:
         remarks.append(f"{undecided} of {len(every)} starts undecided within the horizon: raise it")
 
-    def of_starts(value: Callable[[OutcomeResult], Any]) -> list[list[Any]]:
-        return [[value(reached) for reached in row] for row in results]
+    def of_starts(value: Callable[[OutcomeResult], Any]) -> Any:
+        return np.vectorize(value, otypes=[object])(results).tolist()
 
     decided = [reached.separates for reached in every if reached.attractor is not None]
     separating = share(sum(decided), len(decided), len(every) - len(decided))
-    by_energy = np.array([[*_shares(row)] for row in results])
+    by_energy = np.array([[*_shares(row)] for row in results.tolist()])
     values = {
         "status": failed[0].status if len(failed) == len(every) else "ok",
         "kind": of_starts(lambda reached: reached.word),
@@ -142,9 +146,8 @@ def basins(
         **with_ends("separating_fraction", separating),
         **{f"attractor_{name}": column for name, column in listed(attractors).items()},
     }
-    apart = []
-    for j, row in enumerate(results):
-        apart += [(energies[j], i, j) for i, reached in enumerate(row) if reached.separates]
+    each = np.ndenumerate(results)
+    apart = [(energies[j], i, j) for (j, i), reached in each if reached.separates]
     if apart:
         values |= _critical_energy(*min(apart), lambda *start: follow(*start).separates)
     own = {"energy": energies, "start": range(n_starts), "attractor_class": CLASSES}

@@ -1,8 +1,8 @@
-"""Samples of the settled motion, once a turn of the drive or at events."""
+"""Samples of the settled motion at its events."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 import xarray as xr
@@ -11,11 +11,10 @@ from pydantic import Field
 from disc_model.analysis.classify import Motion as MotionKind
 from disc_model.analysis.classify import closure
 from disc_model.data.variables import Outcome
-from disc_model.errors import require
 from disc_model.parameters import Parameters
-from disc_model.simulation.case import Poincare, Start
+from disc_model.simulation.case import Start
 from disc_model.stability.follower import FIRST_LEG
-from disc_model.studies.quantity import MOST, STATIC, Motion, Starting, found, quantity
+from disc_model.studies.quantity import MOST, STATIC, Motion, found, quantity
 from disc_model.units import Count, Seconds, Tolerance
 
 if TYPE_CHECKING:
@@ -23,18 +22,12 @@ if TYPE_CHECKING:
     from disc_model.simulation.states import State
     from disc_model.stability.attractors import Arrival
 
-SAMPLED = ("psi", "psi_velocity", "P", "u", "w_point")
-
 
 def _settled(
-    case: Parameters, *, section: str, start: Start, transient: float, tol: float, **options: Any
+    case: Parameters, *, transient: float, max_transient: float, start: Start, tol: float, **_: Any
 ) -> State:
     """The state in which samples begin."""
-    from disc_model.simulation.starts import state_after
-
-    if section == "stroboscopic":
-        return state_after(case, start, transient, tol)
-    legs, reached = _transient_of(case, start, transient, options["max_transient"], tol)
+    legs, reached = _transient_of(case, start, transient, max_transient, tol)
     return reached.end(legs[-1])
 
 
@@ -42,7 +35,7 @@ def _settled(
     points_per_job=110,
     rules=(
         (
-            lambda o: o.section == "stroboscopic" or o.max_transient >= o.transient,
+            lambda o: o.max_transient >= o.transient,
             "max_transient={0.max_transient:g} must be >= transient={0.transient:g}",
         ),
     ),
@@ -53,25 +46,31 @@ def bifurcation(
     *,
     transient: Seconds,
     max_transient: Seconds = 480.0,
-    section: Literal["stroboscopic", "event"] = "stroboscopic",
     samples: Annotated[Count, Field(ge=1, le=MOST)] = 50,
-    start: Starting = STATIC,
+    start: Start = STATIC,
     tol: Tolerance = 1e-10,
 ) -> xr.Dataset:
-    """Samples of the motion after a transient, for bifurcation diagrams.
-
-    Once a turn, a periodic stick-slip cycle fills an interval, as its period is no multiple of a turn: `kind`
-    tells it from motions that do not repeat. At events, which are separations if there are any, else releases,
-    a periodic motion shows as many points as its period has events.
+    """Samples of the motion after a transient, for bifurcation diagrams, at separations if there are any, else at
+    releases: a periodic motion shows as many points as its period has events.
 
     Parameters
     ----------
-    transient : time left out at the beginning; at events it is doubled until the motion has settled
+    transient : time left out at the beginning, doubled until the motion has settled
     max_transient : longest time left out
-    section : whether samples are taken once a turn of the drive, or at events
     samples : number of samples
     start : start of the motion
     tol : tolerance of simulations: error of event times after a second of motion
+
+    Returns
+    -------
+    xarray.Dataset
+        The variables of a study of this quantity, with words as words; attributes are the case (`parameters`), the
+        `options`, and in `message` what went wrong or is missing
+
+    Raises
+    ------
+    ParameterError
+        If an argument breaks a rule; the message names the argument, its value and the rule.
 
     Examples
     --------
@@ -79,53 +78,19 @@ def bifurcation(
     >>> dm.bifurcation(dm.Parameters(N=385, Omega=15), transient=20, samples=3)["kind"].item()
     'stick_slip'
     """
-    if section == "stroboscopic":
-        values = _once_a_turn(case, start, transient, samples, tol)
-        length, advice = transient, "transient"
-    else:
-        legs, reached = _transient_of(case, start, transient, max_transient, tol)
-        values = _at_switches(case, legs, reached, samples, tol)
-        length, advice = reached.stay, "max_transient"
+    legs, reached = _transient_of(case, start, transient, max_transient, tol)
+    values = _at_switches(case, legs, reached, samples, tol)
     message = ""
     if values["settled"] != "settled":
-        message = f"{values['settled']} after {length:g} s: raise {advice}"
-    values |= {"status": "ok", "transient_time": length}
+        message = f"{values['settled']} after {reached.stay:g} s: raise max_transient"
+    values |= {"status": "ok", "transient_time": reached.stay}
     return found("bifurcation", values, message, sample=range(samples))
-
-
-def _once_a_turn(
-    case: Parameters, start: Start, transient: float, samples: int, tol: float
-) -> dict[str, Any]:
-    """Sample at t = i 2 pi / Omega after the transient."""
-    from disc_model.simulation.api import simulate
-    from disc_model.simulation.starts import make_initial_state
-    from disc_model.stability.attractors import arrival
-
-    rule = "must be > 0, because samples are taken once a turn"
-    require((case.Omega > 0, "Omega", case.Omega, rule))
-    turn = 2 * np.pi / case.Omega
-    first = int(np.ceil(transient / turn))
-    # both ends lie between samples, so that rounding neither adds one nor leaves one out
-    end = (first + samples - 0.5) * turn
-    turns = Poincare(start=max(first - 0.25, 0.0) * turn, stop=end)
-    state = make_initial_state(case, start, tol)
-    run = simulate(case, end, {"turns": turns}, tol=tol, initial_state=state).raise_for_status()
-    taken = run.samples["turns"]
-    return {
-        **{name: taken[name] for name in SAMPLED},
-        **_motion_reached(case, arrival(case, [run]), run, tol),
-        "phase": taken["phase"] + 1,  # 0 is "none"
-        "first_separation": run.first_separation,
-        "separations": int(run.statistics["n_separations"]),
-        "stick_fraction": run.statistics["time_stick"] / run.final_state.time,
-    }
 
 
 def _transient_of(
     case: Parameters, start: Start, transient: float, max_transient: float, tol: float
 ) -> tuple[list[Result], Arrival]:
-    """The runs of the time left out before samples at events, and what they have come to; raises
-    `SimulationError`."""
+    """The runs of the time left out, and what they have come to; raises `SimulationError`."""
     from disc_model.simulation.starts import make_initial_state
     from disc_model.stability.attractors import settle
 

@@ -76,6 +76,17 @@ def branches(
     max_dwell : longest time at a value
     tol : tolerance of simulations: error of event times after a second of motion
 
+    Returns
+    -------
+    xarray.Dataset
+        The variables of a study of this quantity, with words as words; attributes are the case (`parameters`), the
+        `options`, and in `message` what went wrong or is missing
+
+    Raises
+    ------
+    ParameterError
+        If an argument breaks a rule; the message names the argument, its value and the rule.
+
     Examples
     --------
     >>> import disc_model as dm

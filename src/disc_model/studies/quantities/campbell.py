@@ -58,6 +58,17 @@ def campbell(
     step : between speeds
     tol : tolerance of cycles: relative residual of the return map
 
+    Returns
+    -------
+    xarray.Dataset
+        The variables of a study of this quantity, with words as words; attributes are the case (`parameters`), the
+        `options`, and in `message` what went wrong or is missing
+
+    Raises
+    ------
+    ParameterError
+        If an argument breaks a rule; the message names the argument, its value and the rule.
+
     Examples
     --------
     >>> import disc_model as dm

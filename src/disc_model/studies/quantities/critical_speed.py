@@ -5,7 +5,7 @@ be several.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from itertools import pairwise
 from typing import TYPE_CHECKING, Annotated, Any
@@ -16,15 +16,13 @@ from pydantic import AfterValidator, BeforeValidator, Field
 
 from disc_model.data.variables import value_with_unit
 from disc_model.parameters import Parameters
-from disc_model.studies.quantity import BETWEEN, found, listed, quantity, values_between
+from disc_model.studies.quantity import BETWEEN, Range, found, listed, quantity, values_between
 from disc_model.units import Finite, Seconds, Speed, Tolerance, Unit
 
 if TYPE_CHECKING:
     from disc_model.stability.follower import OutcomeResult
 
 MOST_CROSSINGS = 12
-PRECISION = 0.1
-"""Width to which crossings are bisected unless another is asked for, rad/s."""
 Horizons = Annotated[
     tuple[Seconds, ...],
     BeforeValidator(
@@ -37,11 +35,10 @@ Horizons = Annotated[
 """A horizon, or several."""
 
 
-def _ratio(options: Any) -> float:
-    """The step as a multiple of the precision, for which the largest part of the step up to `PRECISION` stands."""
-    precision = options.precision
-    parts = math.ceil(options.step / PRECISION - 1e-9)
-    return parts if precision is None else options.step / precision
+def _is_multiple(options: Any) -> bool:
+    """Whether the step of the scan is a multiple of the precision."""
+    ratio = options.step / options.precision
+    return round(ratio) > 0 and math.isclose(ratio, round(ratio), rel_tol=1e-6)
 
 
 @quantity(
@@ -50,9 +47,7 @@ def _ratio(options: Any) -> float:
     rules=(
         *BETWEEN,
         (
-            lambda o: (
-                round(_ratio(o)) > 0 and math.isclose(_ratio(o), round(_ratio(o)), rel_tol=1e-6)
-            ),
+            _is_multiple,
             "step={0.step:.6g} rad/s must be a multiple of precision={0.precision:.6g} rad/s",
         ),
     ),
@@ -63,7 +58,7 @@ def critical_speed(
     horizon: Horizons = 1000.0,  # type: ignore[assignment]
     *,
     step: Speed = 1.0,
-    precision: Speed | None = None,
+    precision: Speed = 0.1,
     tol: Tolerance = 1e-10,
 ) -> xr.Dataset:
     """The lowest speed of a scan with separation within a horizon, and all speeds where separation begins or
@@ -77,8 +72,7 @@ def critical_speed(
     bounds : lowest and highest speed of the scan
     horizon : time within which separation must occur, or several, each with a critical speed of its own
     step : of the scan
-    precision : width to which crossings are bisected, of which `step` must be a multiple; if not given, 0.1 or the next
-        smaller part of `step`
+    precision : width to which crossings are bisected, of which `step` must be a multiple
     tol : tolerance of simulations: error of event times after a second of motion
 
     Returns
@@ -89,6 +83,11 @@ def critical_speed(
         next lower one computed, which is lower by `precision`; where it was lost at the lowest speed already,
         `at_lower_bound` is true. `message` states which horizons have no critical speed, or one at the lower bound.
 
+    Raises
+    ------
+    ParameterError
+        If an argument breaks a rule; the message names the argument, its value and the rule.
+
     Examples
     --------
     >>> import disc_model as dm
@@ -98,61 +97,55 @@ def critical_speed(
     """
     from disc_model.stability.follower import find_outcome
 
-    speeds = values_between(bounds, step)
-    ratio = math.ceil(step / PRECISION - 1e-9) if precision is None else round(step / precision)
+    ratio = round(step / precision)
+    count = len(values_between(bounds, step))
+    # all speeds that may be computed, a precision apart
+    lattice = Range(start=bounds[0], stop=bounds[1], count=1 + (count - 1) * ratio).values
     motions: dict[int, OutcomeResult] = {}
 
-    def speed(i: int) -> float:
-        """The speed at a place on the lattice of the precision."""
-        if i % ratio == 0:
-            return speeds[i // ratio]
-        return float(f"{speeds[0] + i * step / ratio:.12g}")
+    def look(places: Iterable[int]) -> dict[int, float]:
+        """Follow motions from the static start up to the longest horizon; returns all first separations."""
+        for i in places:
+            there = case.replace(Omega=lattice[i])
+            result = find_outcome(there, horizon[-1], tol=tol, compared_with=horizon)
+            # return maps would take megabytes each for a disc of many modes
+            motions[i] = replace(result, near=None)
+        return {i: _first_separation(motions[i]) for i in sorted(motions)}
 
-    def look(i: int) -> None:
-        """Follow the motion from the static start, up to the longest horizon."""
-        there = case.replace(Omega=speed(i))
-        result = find_outcome(there, horizon[-1], tol=tol, compared_with=horizon)
-        # return maps would take megabytes each for a disc of many modes
-        motions[i] = replace(result, near=None)
-
-    scanned = range(0, len(speeds) * ratio, ratio)
-    for i in scanned:
-        look(i)
+    scanned = range(0, len(lattice), ratio)
+    lost = look(scanned)
     for time in horizon:
         # every interval over which separation within the horizon begins or ends is halved, down to the lattice
-        while middles := [(a + b) // 2 for a, b, _ in _changes(motions, time) if b - a > 1]:
-            for i in middles:
-                look(i)
+        while middles := [(a + b) // 2 for a, b, _ in _changes(lost, time) if b - a > 1]:
+            lost = look(middles)
+    remarks = []
+    for i, result in motions.items():
+        if result.status != "ok":
+            remarks.append(f"{value_with_unit('Omega', lattice[i])}: {result.message}")
     rows = []
     without: list[str] = []
     at_bound: list[str] = []
-    remarks = [
-        f"{value_with_unit('Omega', speed(i))}: {result.message}"
-        for i, result in motions.items()
-        if result.status != "ok"
-    ]
     for time in horizon:
-        changes = _changes(motions, time)
-        known = {i: _first_separation(motions[i]) for i in sorted(motions)}
         # the lowest speed that separates; an unknown speed hides those above it
-        first = next((i for i in known if not known[i] > time), None)
-        lowest = math.nan if first is None or math.isnan(known[first]) else speed(first)
+        first = next((i for i in lost if not lost[i] > time), None)
+        lowest = math.nan if first is None or math.isnan(lost[first]) else lattice[first]
+        if math.isnan(lowest):
+            without.append(f"{time:g}")
+        elif first == 0:
+            at_bound.append(f"{time:g}")
+        changes = _changes(lost, time)
         row = {
             "critical_speed": lowest,
             "n_crossings": len(changes),
-            "crossing": [speed(b) for _, b, _ in changes],
+            "crossing": [lattice[b] for _, b, _ in changes],
             "crossing_kind": [kind for _, _, kind in changes],
         }
         rows.append(row)
-        if math.isnan(lowest):
-            without.append(f"{time:g}")
-        elif lowest <= speeds[0]:
-            at_bound.append(f"{time:g}")
     if without:
-        scan = f"{len(speeds)} speeds from {speeds[0]:g} to {speeds[-1]:g} rad/s"
-        remarks.append(f"no separation within {', '.join(without)} s at {scan}")
+        scan = f"at {count} speeds from {bounds[0]:g} to {bounds[1]:g} rad/s"
+        remarks.append(f"no separation within {', '.join(without)} s {scan}")
     if at_bound:
-        bound = f"at the lower bound, {speeds[0]:g} rad/s"
+        bound = f"at the lower bound, {bounds[0]:g} rad/s"
         remarks.append(f"contact is already lost within {', '.join(at_bound)} s {bound}")
     values: dict[str, Any] = {
         "status": next((x.status for x in motions.values() if x.status != "ok"), "ok"),
@@ -163,9 +156,10 @@ def critical_speed(
         "simulated_time": sum(result.simulated for result in motions.values()),
         **listed(rows),
     }
-    own = {"horizon": horizon, "crossing_number": range(MOST_CROSSINGS), "scan_Omega": speeds}
-    answer = found("critical_speed", values, "; ".join(remarks), **own)
-    return answer.assign(at_lower_bound=answer["critical_speed"] <= speeds[0])
+    own = {"horizon": horizon, "crossing_number": range(MOST_CROSSINGS)}
+    message = "; ".join(remarks)
+    answer = found("critical_speed", values, message, **own, scan_Omega=lattice[::ratio])
+    return answer.assign(at_lower_bound=answer["critical_speed"] <= bounds[0])
 
 
 def _first_separation(result: OutcomeResult) -> float:
@@ -175,13 +169,12 @@ def _first_separation(result: OutcomeResult) -> float:
     return result.first_separation
 
 
-def _changes(motions: Mapping[int, OutcomeResult], horizon: float) -> list[tuple[int, int, str]]:
+def _changes(lost: Mapping[int, float], horizon: float) -> list[tuple[int, int, str]]:
     """Pairs of neighbours on the lattice of which only one separates within the horizon, and whether it begins
-    or ends there; one that is unknown is in none."""
-    known = {i: _first_separation(motions[i]) for i in sorted(motions)}
+    or ends there, from first separations (s); one that is unknown is in none."""
     changes = []
-    for a, b in pairwise(known):
-        decided = not math.isnan(known[a] + known[b])
-        if decided and (known[a] <= horizon) != (known[b] <= horizon):
-            changes.append((a, b, "begins" if known[b] <= horizon else "ends"))
+    for a, b in pairwise(lost):
+        decided = not math.isnan(lost[a] + lost[b])
+        if decided and (lost[a] <= horizon) != (lost[b] <= horizon):
+            changes.append((a, b, "begins" if lost[b] <= horizon else "ends"))
     return changes

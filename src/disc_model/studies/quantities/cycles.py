@@ -13,16 +13,7 @@ from pydantic import Field
 from disc_model.data.variables import message_of
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Start
-from disc_model.studies.quantity import (
-    STATIC,
-    Free,
-    Motion,
-    Starting,
-    Values,
-    found,
-    listed,
-    quantity,
-)
+from disc_model.studies.quantity import STATIC, Free, Motion, Values, found, listed, quantity
 from disc_model.units import Count, CycleTolerance, Finite, Positive, Real, Seconds, Tolerance, Unit
 
 if TYPE_CHECKING:
@@ -49,6 +40,17 @@ def floquet(case: Parameters, *, tol: CycleTolerance = 1e-12) -> xr.Dataset:
     Parameters
     ----------
     tol : tolerance of cycles: relative residual of the return map
+
+    Returns
+    -------
+    xarray.Dataset
+        The variables of a study of this quantity, with words as words; attributes are the case (`parameters`), the
+        `options`, and in `message` what went wrong or is missing
+
+    Raises
+    ------
+    ParameterError
+        If an argument breaks a rule; the message names the argument, its value and the rule.
     """
     from disc_model.stability.cycle import find_cycle
 
@@ -83,7 +85,7 @@ def lyapunov_exponents(
     *,
     transient: Seconds,
     duration: Seconds,
-    start: Starting = STATIC,
+    start: Start = STATIC,
     tol: Tolerance = 1e-10,
 ) -> xr.Dataset:
     """The two largest Lyapunov exponents of the motion across all its events, without the one along it, which
@@ -95,6 +97,17 @@ def lyapunov_exponents(
     duration : time over which rates are averaged
     start : start of the motion
     tol : tolerance of simulations: error of event times after a second of motion
+
+    Returns
+    -------
+    xarray.Dataset
+        The variables of a study of this quantity, with words as words; attributes are the case (`parameters`), the
+        `options`, and in `message` what went wrong or is missing
+
+    Raises
+    ------
+    ParameterError
+        If an argument breaks a rule; the message names the argument, its value and the rule.
     """
     from disc_model.stability.lyapunov import lyapunov_exponents as exponents_of
 
@@ -156,6 +169,17 @@ def neutral_curves(
     max_step : arclength of the longest step along a curve
     max_points : most points of a curve, in each direction
     tol : tolerance of cycles: relative residual of the return map
+
+    Returns
+    -------
+    xarray.Dataset
+        The variables of a study of this quantity, with words as words; attributes are the case (`parameters`), the
+        `options`, and in `message` what went wrong or is missing
+
+    Raises
+    ------
+    ParameterError
+        If an argument breaks a rule; the message names the argument, its value and the rule.
     """
     from disc_model.stability.continuation import neutral_curves as curves_of
 

@@ -1,5 +1,4 @@
-"""Hysteresis: a slow sweep of the speed or of another number up and down, which continues the motion from
-value to value."""
+"""Hysteresis: a slow sweep of the speed up and down, which continues the motion from speed to speed."""
 
 from __future__ import annotations
 
@@ -10,15 +9,12 @@ from typing import Annotated, Any
 import numpy as np
 import xarray as xr
 
-from disc_model.data.variables import OF_QUANTITIES, WORDS, attributes_of_number, value_with_unit
+from disc_model.data.variables import OF_QUANTITIES, WORDS, value_with_unit
 from disc_model.display import counted
-from disc_model.errors import require
 from disc_model.parameters import Parameters
-from disc_model.studies.quantity import BETWEEN, Free, Rules, found, quantity, values_between
-from disc_model.units import Finite, Positive, Seconds, Tolerance, Unit
+from disc_model.studies.quantity import BETWEEN, Rules, found, quantity, values_between
+from disc_model.units import Finite, Seconds, Speed, Tolerance, Unit
 
-SPEED = "Omega"
-"""The number along which sweeps go unless another one is asked for."""
 DIRECTIONS = ("up", "down")
 STAYS: Rules = (
     (lambda o: o.max_dwell >= o.dwell, "max_dwell={0.max_dwell:g} must be >= dwell={0.dwell:g}"),
@@ -32,26 +28,24 @@ OK = WORDS["point_statuses"].index("ok")
 SETTLED = WORDS["answers"].index("settled")
 
 
-@quantity(points_per_job=3, own=("name",), rules=(*BETWEEN, *STAYS, WITHIN))
+@quantity(points_per_job=3, own=("Omega",), rules=(*BETWEEN, *STAYS, WITHIN))
 def hysteresis(
     case: Parameters,
-    bounds: Annotated[tuple[Finite, Finite], Unit(of="name")],
+    bounds: Annotated[tuple[Finite, Finite], Unit("rad/s")],
     dwell: Seconds,
     *,
-    name: Free = SPEED,
-    step: Annotated[Positive, Unit(of="name")] = 1.0,
+    step: Speed = 1.0,
     max_dwell: Seconds = 480.0,
     evaluation_time: Seconds = 5.0,
     tol: Tolerance = 1e-10,
 ) -> xr.Dataset:
-    """Sweep the speed or another number of a case up from the static start and down again, continuing the same
-    motion, and describe it at each value.
+    """Sweep the speed up from the static start and down again, continuing the same motion, and describe it at each
+    value.
 
     Parameters
     ----------
     bounds : least and greatest value
     dwell : time at each value, doubled until the motion has settled
-    name : number of the case that is swept, which leaves the shapes of the modes as they are
     step : between values
     max_dwell : longest time at a value
     evaluation_time : length of the last stretch at a value, which is described
@@ -63,8 +57,12 @@ def hysteresis(
         `onset_speed`, `offset_speed` (rad/s): the first speed with separation on the way up, and the lowest one to
         which it persists on the way down. They are nan where the bounds do not show them; `message` says why, and
         whether motions in contact had not settled (`sweep_settled`): the onset may then be lower. `separation_rate`
-        (1/s), `stay` (s) and others by direction and speed. Of another number, such as N, they are `onset` and
-        `offset` in its unit, and its values are `sweep_N`
+        (1/s), `stay` (s) and others by direction and speed.
+
+    Raises
+    ------
+    ParameterError
+        If an argument breaks a rule; the message names the argument, its value and the rule.
 
     Examples
     --------
@@ -73,12 +71,8 @@ def hysteresis(
     >>> sweep["onset_speed"].item(), sweep["separation_rate"].dims
     (16.0, ('direction', 'sweep_Omega'))
     """
-    from disc_model.simulation.states import mode_arrays
     from disc_model.stability.attractors import sweep
 
-    low, high = (mode_arrays(case.replace(**{name: end})).psi for end in bounds)
-    same = low.shape == high.shape and np.allclose(low, high, rtol=1e-9)
-    require((same, "name", name, "must be a number that does not change the shapes of the modes"))
     swept = values_between(bounds, step)
     columns = OF_QUANTITIES["hysteresis"]["columns"]
     values: dict[str, Any] = {
@@ -87,7 +81,7 @@ def hysteresis(
     status = "ok"
     failure = ""
     for place, result, late, reached in sweep(
-        case, name, swept, dwell, max_dwell, evaluation_time, tol
+        case, "Omega", swept, dwell, max_dwell, evaluation_time, tol
     ):
         stay: dict[str, Any] = {
             "sweep_settled": WORDS["answers"].index(reached.settling.answer),
@@ -95,7 +89,7 @@ def hysteresis(
         }
         if late is None:
             status = result.status.value
-            failure = f"{value_with_unit(name, swept[place[1]])}: {result.message}"
+            failure = f"{value_with_unit('Omega', swept[place[1]])}: {result.message}"
         else:
             stay |= {**asdict(late), "range": late.range}
         stay["sweep_status"] = WORDS["point_statuses"].index(status)
@@ -103,18 +97,8 @@ def hysteresis(
             values[variable][place] = stay[variable]
     onset, offset = _edges(swept, values)
     values |= {"status": status, "onset_speed": onset, "offset_speed": offset}
-    every = found(
-        "hysteresis",
-        values,
-        failure or "; ".join(_reasons(name, swept, values)),
-        direction=DIRECTIONS,
-        sweep_Omega=swept,
-    )
-    if name != SPEED:
-        along = {"sweep_Omega": f"sweep_{name}", "onset_speed": "onset", "offset_speed": "offset"}
-        every = every.rename(along)
-        every[f"sweep_{name}"].attrs = {**attributes_of_number(name), "parameter": name}
-    return every
+    message = failure or "; ".join(_reasons(swept, values))
+    return found("hysteresis", values, message, direction=DIRECTIONS, sweep_Omega=swept)
 
 
 def _edges(swept: Sequence[float], values: dict[str, Any]) -> tuple[float, float]:
@@ -131,9 +115,9 @@ def _edges(swept: Sequence[float], values: dict[str, Any]) -> tuple[float, float
     return onset, offset
 
 
-def _reasons(name: str, swept: Sequence[float], values: dict[str, Any]) -> Iterator[str]:
+def _reasons(swept: Sequence[float], values: dict[str, Any]) -> Iterator[str]:
     """Why a sweep up and down has no onset or no end of separation, and where contact may yet be lost."""
-    lowest, highest = (value_with_unit(name, value) for value in (swept[0], swept[-1]))
+    lowest, highest = (value_with_unit("Omega", value) for value in (swept[0], swept[-1]))
     apart = values["separation_rate"] > 0
     rising, falling = apart
     if not apart.any():

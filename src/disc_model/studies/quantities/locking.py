@@ -11,7 +11,8 @@ import xarray as xr
 from pydantic import Field
 
 from disc_model.parameters import Parameters
-from disc_model.studies.quantity import STATIC, Starting, found, quantity
+from disc_model.simulation.case import Start
+from disc_model.studies.quantity import STATIC, found, quantity
 from disc_model.units import Count, Seconds, Tolerance
 
 if TYPE_CHECKING:
@@ -38,7 +39,7 @@ def locking(
     max_record: Seconds = 160.0,
     multipliers: bool = True,
     probes: Annotated[Count, Field(ge=0, le=10_000)] = 0,
-    start: Starting = STATIC,
+    start: Start = STATIC,
     tol: Tolerance = 1e-10,
 ) -> xr.Dataset:
     """Number of releases of stick after which a motion that separates repeats, mean number of separations between
@@ -54,6 +55,17 @@ def locking(
     probes : number of places at which the map of release phases is computed
     start : start of the motion
     tol : tolerance of simulations: error of event times after a second of motion
+
+    Returns
+    -------
+    xarray.Dataset
+        The variables of a study of this quantity, with words as words; attributes are the case (`parameters`), the
+        `options`, and in `message` what went wrong or is missing
+
+    Raises
+    ------
+    ParameterError
+        If an argument breaks a rule; the message names the argument, its value and the rule.
 
     Examples
     --------

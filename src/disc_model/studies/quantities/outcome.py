@@ -12,7 +12,7 @@ import xarray as xr
 from disc_model.data.variables import Outcome
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Start
-from disc_model.studies.quantity import COME_TO, STATIC, Motion, Starting, found, quantity
+from disc_model.studies.quantity import COME_TO, STATIC, Motion, found, quantity
 from disc_model.units import Seconds, Tolerance
 
 if TYPE_CHECKING:
@@ -77,7 +77,7 @@ def outcome(
     case: Parameters,
     horizon: Seconds = 1000.0,
     *,
-    start: Starting = STATIC,
+    start: Start = STATIC,
     evaluation_time: Seconds = 1.0,
     after_separation: Seconds = 5.0,
     early_end: bool = True,
@@ -101,6 +101,11 @@ def outcome(
         `outcome`, `first_separation` (s), and the stretch: P_min, P_max (N), u_min, u_max (m), stick_fraction, ...
         Of stable cycles in contact, "stick_slip" are that of `floquet`, and one whose release differs from the first
         release of the static start by at most a tenth of the static deflection; "other_cycle" are all others
+
+    Raises
+    ------
+    ParameterError
+        If an argument breaks a rule; the message names the argument, its value and the rule.
 
     Examples
     --------

@@ -42,6 +42,17 @@ def ramps(
     dwell : time at the highest speed, and at the lowest one in the end
     tol : tolerance of simulations: error of event times after a second of motion
 
+    Returns
+    -------
+    xarray.Dataset
+        The variables of a study of this quantity, with words as words; attributes are the case (`parameters`), the
+        `options`, and in `message` what went wrong or is missing
+
+    Raises
+    ------
+    ParameterError
+        If an argument breaks a rule; the message names the argument, its value and the rule.
+
     Examples
     --------
     >>> import disc_model as dm

@@ -34,6 +34,17 @@ def sliding_modes(
     step : between its values
     modes : room for that many modes, numbered by frequency at the first value
 
+    Returns
+    -------
+    xarray.Dataset
+        The variables of a study of this quantity, with words as words; attributes are the case (`parameters`), the
+        `options`, and in `message` what went wrong or is missing
+
+    Raises
+    ------
+    ParameterError
+        If an argument breaks a rule; the message names the argument, its value and the rule.
+
     Examples
     --------
     >>> import disc_model as dm
