@@ -176,5 +176,13 @@ def test_the_table_of_modes_has_the_shares_of_energy() -> None:
     assert dm.steady_sliding(STEEL.replace(Omega=0)).modes.empty
 
 
+def test_a_sweep_follows_the_fastest_mode() -> None:
+    case = STEEL.replace(mu_k=0.45)
+    swept = dm.sweep(dm.steady_sliding, case, Omega=[0, 60, 90, 120], N=[5000, 6000])
+    assert swept["mode"].values[1:].tolist() == [[1, 1], [13, 13], [13, 13]]
+    np.testing.assert_allclose(swept["frequency"][3], [7116.1159, 7116.1184], rtol=1e-7)
+    assert swept["mode"][0].isnull().all()
+
+
 def test_without_sliding_nothing_squeals() -> None:
     assert dm.squeal(STEEL.replace(N=0), SPEEDS, points=3).empty

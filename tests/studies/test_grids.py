@@ -123,6 +123,17 @@ def test_what_failed_is_missing() -> None:
     assert failures["mu_k"].tolist() == [0.5]
 
 
+def test_what_a_rule_leaves_out_is_missing_and_no_failure() -> None:
+    whole = dm.run_study(STUDY)
+    study = dm.run_study({**STUDY, "where": "N < Omega * 30"})
+    words = dm.words(study["status"])
+    kept = words == "ok"
+    assert {*words.values.ravel().tolist()} == {"ok", "excluded"}
+    np.testing.assert_array_equal(kept, (study["N"] < 30 * study["Omega"]).broadcast_like(kept))
+    np.testing.assert_array_equal(study["growth_rate"], whole["growth_rate"].where(kept))
+    assert told_points(study)[0].empty
+
+
 def test_an_infinite_value_and_words_go_through_jobs() -> None:
     axes = {
         "friction_decay": [1, math.inf],

@@ -188,6 +188,8 @@ CHOICES: dict[str, tuple[str, ...]] = {
     name: get_args(Parameters.model_fields[name].annotation)
     for name in ("normalization", "contact", "contact_force", "friction_law", "stretching")
 }
+EXCLUDED = "excluded"
+"""Status of points that a rule of the study leaves out."""
 TRUTH = {"comment": "1 for True, 0 for False, nan where there is neither"}
 """Attributes of numbers that stand for True and False, since some are missing."""
 

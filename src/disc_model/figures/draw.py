@@ -248,7 +248,7 @@ def lone_cells(flag: DataArray) -> DataArray:
     for dim in flag.dims:
         before, after = flag.shift({dim: 1}), flag.shift({dim: -1})
         alone |= (before == after) & (flag != before)
-    return alone & flag.notnull() & (flag != "")
+    return alone & flag.notnull() & ~flag.isin(["", "excluded"])
 
 
 def unresolved(ax: Axes, flag: DataArray) -> None:

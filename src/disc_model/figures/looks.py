@@ -73,6 +73,7 @@ LOOKS = {
     "slip": Look("slip", "#e9c7da"),
     # points without a class
     "no_value": Look("no value", "#ffffff", "///"),
+    "excluded": Look("left out", "#ffffff", "xxx"),
     "none": Look("none", "#ffffff", "--"),
 }
 FURTHER_COLOURS = ("#56b4e9", "#e69f00", "#117755", "#cc79a7", "#332288", "#ddcc77", "#882255")

@@ -79,6 +79,21 @@ def expand(dims: Mapping[str, pd.DataFrame]) -> pd.DataFrame:
     return reduce(lambda above, below: above.merge(below, how="cross"), dims.values())
 
 
+def keeps(points: pd.DataFrame, rules: Sequence[str], beside: Mapping[str, Any]) -> list[bool]:
+    """Which points keep all rules, such as ``mu_k <= mu_s`` (`pandas.DataFrame.eval`), of what varies and
+    of values beside it that do not; raises `ParameterError`."""
+    constant = {name: x for name, x in beside.items() if name not in points}
+    kept = np.ones(len(points), bool)
+    for rule in rules:
+        try:
+            answers: Any = points.assign(**constant).eval(rule)
+            kept &= answers.to_numpy(bool)
+        except Exception as error:  # whatever pandas makes of a text
+            told = f"must compare values of points: {error}"
+            raise ParameterError(Fault.of(("where",), rule, told)) from None
+    return kept.tolist()
+
+
 def thinned(frame: pd.DataFrame, most: int) -> pd.DataFrame:
     """At most so many values of a dimension, evenly spaced by place and including both ends; words are all
     kept."""

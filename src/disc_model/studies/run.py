@@ -16,14 +16,14 @@ import xarray as xr
 from disc_model.data.coded import table_of
 from disc_model.data.dataset import CONVENTIONS
 from disc_model.data.described import described
-from disc_model.data.variables import OF_QUANTITIES, Variable
+from disc_model.data.variables import EXCLUDED, OF_QUANTITIES, Variable
 from disc_model.parameters import Disc
 from disc_model.provenance import git_commit, physics_hash, versions_text
 from disc_model.simulation.named_case import run_case
 from disc_model.studies.compute import Call, compute, stack
 from disc_model.studies.grid import VARIED, Points, case_of
 from disc_model.studies.motions import history_from
-from disc_model.studies.quantity import quantity_of
+from disc_model.studies.quantity import found, quantity_of
 
 if TYPE_CHECKING:
     from disc_model.studies.study import Study
@@ -99,12 +99,15 @@ def merge(layout: Layout, results: Sequence[xr.Dataset], attrs: Mapping[str, str
     Parameters
     ----------
     layout : of `Study.layout`
-    results : at all points, in the order of `Study.points`
+    results : at all points that are not left out, in the order of `Study.points`
     attrs : of the study
     """
     quantity = quantity_of(layout["quantity"])
     dims = {dim: pd.DataFrame(columns) for dim, columns in layout["dims"].items()}
-    study = stack(results, dims, quantity.columns)
+    left_out = found(quantity.name, {"status": EXCLUDED})
+    computed = iter(results)
+    every_point = [next(computed) if kept else left_out for kept in layout["kept"]]
+    study = stack(every_point, dims, quantity.columns)
 
     def rank(dim: Any) -> int:
         name = dims[dim].columns[0] if dim in dims else dim
@@ -134,7 +137,7 @@ def merge(layout: Layout, results: Sequence[xr.Dataset], attrs: Mapping[str, str
 def told_points(study: xr.Dataset) -> tuple[pd.DataFrame, pd.DataFrame]:
     """Tables of the points without a result, and of those with a result and a message."""
     points = table_of(study[["status", "message"]])
-    known = points["status"] == "ok"
+    known = points["status"].isin(["ok", EXCLUDED])
     return points[~known], points[known & (points["message"] != "")]
 
 

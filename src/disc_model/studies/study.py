@@ -28,15 +28,15 @@ from disc_model.display import counted
 from disc_model.errors import Fault, ParameterError, raise_faults, require, suggestion
 from disc_model.figures.schema import CasePlot, Kind, Plot
 from disc_model.figures.shown import IN_WORDS, factors_of
-from disc_model.parameters import Disc, Parameters
+from disc_model.parameters import DEFAULTS, Disc, Parameters
 from disc_model.provenance import content_key, physics_hash
 from disc_model.simulation.case import CaseSpec, Name, RecordSpec, SomeParameters, without_null
-from disc_model.studies.grid import Columns, case_of, dimensions, expand, thinned
+from disc_model.studies.grid import Columns, case_of, dimensions, expand, keeps, thinned
 from disc_model.studies.quantity import HOMES, Quantity, quantity_of
 from disc_model.units import Count, Strict, Tolerance
 
 ALL_MOTIONS = 100  # points of a grid up to which a motion of each is stored, some 3 kB each
-GRID_KEYS = frozenset({"options", "axes", "zip", "points_per_job", "discs"})
+GRID_KEYS = frozenset({"options", "axes", "zip", "where", "points_per_job", "discs"})
 
 
 class StudyError(ParameterError):
@@ -166,6 +166,9 @@ class Study(Strict):
         tuple[Columns, ...],
         BeforeValidator(_several, json_schema_input_type=Columns | list[Columns]),
     ] = ()
+    where: Annotated[
+        tuple[str, ...], BeforeValidator(_several, json_schema_input_type=str | list[str])
+    ] = ()  # rules that points keep, such as mu_k <= mu_s
     points_per_job: Annotated[Count, Field(ge=1)] | None = None
     discs: dict[str, Annotated[Disc, WithJsonSchema({"type": "string"})]] = Field({})
     studies: tuple[str, ...] = ()  # further files of grid studies, * stands for any part of a name
@@ -239,8 +242,20 @@ class Study(Strict):
 
     @cached_property
     def points(self) -> pd.DataFrame:
-        """What varies, a row for each point; raises `ParameterError`."""
-        return expand(self.dims)
+        """What varies, a row for each point that is not left out; raises `ParameterError`."""
+        points = self._kept(self.dims)
+        require((len(points), "where", " and ".join(self.where), "leaves no point"))
+        return points
+
+    def _kept(self, dims: Mapping[str, pd.DataFrame]) -> pd.DataFrame:
+        """The points along dimensions that are not left out."""
+        points = expand(dims)
+        return points[keeps(points, self.where, self._beside)]
+
+    @property
+    def _beside(self) -> dict[str, Any]:
+        """Values of the parameters that do not vary."""
+        return {**DEFAULTS, **self.base.model_dump(exclude_unset=True)}
 
     @cached_property
     def case(self) -> Parameters:
@@ -280,6 +295,7 @@ class Study(Strict):
                 x: disc.model_dump(mode="json") for x, disc in self.discs.items() if x in used
             },
             "dims": {dim: frame.to_dict("list") for dim, frame in self.dims.items()},
+            "kept": keeps(expand(self.dims), self.where, self._beside),
         }
 
     @cached_property
@@ -287,7 +303,7 @@ class Study(Strict):
         """What each job computes, as JSON, by the name of its file: a hash of what all have in common,
         and one of their own points."""
         codes = {name: column.flags for name, column in self.of.columns.items()}
-        common = {**self.layout, "dims": {}, "code": physics_hash(), "codes": codes}
+        common = {**self.layout, "dims": {}, "kept": [], "code": physics_hash(), "codes": codes}
         content = content_key(_text(common))
         size = self.points_per_job or self.of.points_per_job
         points = np.array(self.points.to_dict("records"))
@@ -307,9 +323,9 @@ class Study(Strict):
         few = dict(self.dims)
         if len(self.points) > ALL_MOTIONS:
             few = {dim: thinned(frame, motion.number) for dim, frame in self.dims.items()}
-        points = expand(few).to_dict("records")
+        points = self._kept(few).to_dict("records")
         text = _text({**self.layout, "code": physics_hash(), "points": points})
-        return {content_key(text): text}
+        return {content_key(text): text} if points else {}
 
     @property
     def attrs(self) -> dict[str, str]:

@@ -13,7 +13,7 @@ import pandas as pd
 import xarray as xr
 
 from disc_model.data.columns import result_dataset
-from disc_model.data.variables import COMMON
+from disc_model.data.variables import COMMON, OF_RESULTS
 from disc_model.errors import Fault, ParameterError, raise_faults, require, suggestion
 from disc_model.modal_disc import si_unit_of_mode
 from disc_model.parameters import Parameters, foreign_case
@@ -90,6 +90,8 @@ def sweep(
     call = Call(partial(_gathered, function, name, {*points, *dims}), case.replace, options)
     rows: Points = points.to_dict("records")
     results = compute(call, rows, map=map, title=name, progress=progress)
+    if name == "steady_sliding":
+        _number_fastest(case, rows, results)
     found = stack(results, dims)
     messages = found["message"].values.ravel().tolist()
     if all(text.startswith("ParameterError") for text in messages):
@@ -105,6 +107,17 @@ def sweep(
         "versions": versions_text(),
     }
     return found.assign_attrs(attrs)
+
+
+def _number_fastest(case: Parameters, rows: Points, results: Sequence[xr.Dataset]) -> None:
+    """Add the number of the mode that grows fastest to results of steady sliding, followed from point to point."""
+    from disc_model.stability.sliding import follow_modes
+
+    swings = [i for i, result in enumerate(results) if result.get("frequency", 0) > 0]
+    followed = follow_modes([case.replace(**rows[i]) for i in swings])
+    for i, one in zip(swings, followed, strict=True):
+        number = 1 + one.numbers[np.argmax(one.modes.growth_rate)]
+        results[i]["mode"] = ((), float(number), OF_RESULTS["SteadySliding"]["mode"].texts())
 
 
 def _gathered(
