@@ -1,6 +1,7 @@
 """What motions come to: multipliers and early judgement against long simulations."""
 
 import math
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -10,17 +11,18 @@ import pytest
 import yaml
 from scipy.stats import qmc
 
-from disc_model.analysis.classify import Settled, Settling
+from disc_model.analysis.classify import Motion, Settled, Settling
 from disc_model.data.variables import Outcome
 from disc_model.disc.plate import mode_arrays
 from disc_model.engine.record import EVENT_ROW, LOSS_OF_CONTACT, STICK_TO_SLIP
+from disc_model.errors import Status
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.states import State, perturb, slip_rate, static_start
 from disc_model.stability import attractors
 from disc_model.stability.attractors import Arrival, Basins, random_perturbation
 from disc_model.stability.follower import OutcomeResult, find_outcome, growing
-from disc_model.stability.segments import final_segment
+from disc_model.stability.segments import Segment, final_segment
 
 P14 = Parameters(N=385, Omega=14)
 SMALL = Parameters(N=200, Omega=20, n_diameters=1, c=20.0, D_star=1e-3)
@@ -146,9 +148,6 @@ def test_a_periodic_attractor_is_known_by_its_fixed_point() -> None:
     """The separating motion at 14 rad/s separates once between two releases of stick, again and
     again."""
     basins = Basins(P14, 100.0)
-    start = static_start(P14)
-    for kick in (0.0, 2.0):
-        basins.follow(perturb(P14, start, u=-kick * abs(start.u)))
     quiet, separating = basins.known
     assert separating.kind == Outcome.SEPARATING
     assert separating.releases == 1
@@ -171,6 +170,21 @@ def test_a_torus_is_an_attractor_once_the_record_shows_that_the_motion_has_settl
     assert kinds == [Outcome.UNDECIDED, Outcome.QUASI_PERIODIC]
 
 
+def stretch(**changes: float) -> Segment:
+    """Of a separating motion, for tests of what is said of one."""
+    segment = Segment(
+        P_min=0.0,
+        P_max=1.0,
+        u_min=-0.01,
+        u_max=0.01,
+        stick_fraction=0.25,
+        slip_fraction=0.65,
+        separation_fraction=0.10,
+        separation_rate=135.0,
+    )
+    return replace(segment, **changes)
+
+
 def legs_with(losses: Any, releases: Any = (), end: float = 100.0) -> list[Any]:
     """A record of 100 s in two legs, with losses of contact and releases at some times (s)."""
     times = np.concatenate([losses, releases])
@@ -188,6 +202,46 @@ def legs_with(losses: Any, releases: Any = (), end: float = 100.0) -> list[Any]:
     ]
 
 
+# ------------------------------------------------------------------------ Comparison of attractors
+
+
+@pytest.mark.parametrize(
+    ("rate", "error", "separates", "kind"),
+    [
+        (0.05, 0.001, True, Outcome.IRREGULAR),
+        (-0.05, 0.001, True, Outcome.SEPARATING),
+        (-0.05, 0.001, False, Outcome.OTHER_CYCLE),
+        (0.05, 0.02, True, Outcome.QUASI_PERIODIC),  # within four standard errors
+        (-0.05, 0.02, True, Outcome.QUASI_PERIODIC),
+        (math.nan, 0.001, True, Outcome.UNDECIDED),
+        (-math.inf, 0.001, True, Outcome.UNDECIDED),
+        (0.05, math.nan, True, Outcome.UNDECIDED),
+    ],
+)
+def test_a_motion_that_does_not_repeat_is_named_by_its_largest_exponent(
+    rate: float, error: float, separates: bool, kind: Outcome, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Intervals of the golden rotation never repeat; those of releases do, every 10 ms."""
+    count = 60
+    even = 0.01 * np.arange(1, count + 1)
+    uneven = np.cumsum(0.01 + 1e-3 * np.cos(2 * np.pi * 0.6180339887 * np.arange(count)))
+    found = SimpleNamespace(exponents=np.array([rate]), errors=np.array([error]))
+    monkeypatch.setattr(attractors, "lyapunov_exponents", lambda *_, **__: found)
+
+    def regularity(times: Any) -> Motion:
+        [run, _] = legs_with(times, even) if separates else legs_with([], times)
+        run.status = Status.OK
+        monkeypatch.setattr(attractors, "simulate", lambda *_, **__: run)
+        return attractors.regularity(P14, static_start(P14), 1e-10)
+
+    motion = regularity(uneven)
+    assert motion.kind == kind
+    assert motion.period == 0
+    # a period shows without exponents
+    assert regularity(even).period > 0
+    assert regularity(even[:10]).kind is Outcome.UNDECIDED
+
+
 @pytest.mark.compiled
 def test_a_stay_is_doubled_until_it_has_settled_and_no_further(
     monkeypatch: pytest.MonkeyPatch,
@@ -195,7 +249,7 @@ def test_a_stay_is_doubled_until_it_has_settled_and_no_further(
     """From a value inside the sweep rises to the last, and falls to the first."""
     stays = {10.0: 0.1, 11.0: 0.2, 12.0: 0.4}  # 0.4 s are allowed
 
-    def settles(p: Parameters, legs: Any, most: int) -> Arrival:
+    def settles(p: Parameters, legs: Any) -> Arrival:
         done = 0.1 * 2 ** (len(legs) - 1) >= {10.0: 0.1, 11.0: 0.2, 12.0: 9.0}[p.Omega]
         return Arrival(Settling(Settled.SETTLED if done else Settled.UNDECIDED))
 

@@ -14,7 +14,7 @@ from disc_model.stability.follower import (
     slips_on,
 )
 from disc_model.stability.segments import stick_share
-from disc_model.stability.sliding import steady_sliding
+from disc_model.stability.sliding import height_of_slider, steady_sliding
 
 pytestmark = pytest.mark.compiled
 
@@ -97,3 +97,17 @@ def test_slip_between_two_sticks_is_no_departure_from_sliding() -> None:
     leg = simulate(STICKS, 5.0)
     assert stick_share(leg) > 0
     assert not slips_on(leg)
+
+
+def test_rest_on_unstable_sliding_is_no_departure() -> None:
+    sliding = steady_sliding(SQUEALS)
+    at_rest = simulate(SQUEALS, 5.0).final_state.replace(
+        a=sliding.a,
+        alpha=sliding.alpha,
+        b=sliding.b,
+        beta=sliding.beta,
+        psi=sliding.psi,
+        f=SQUEALS.Omega,
+        u=height_of_slider(SQUEALS, sliding),
+    )
+    assert not departs_from_sliding(SQUEALS, at_rest)

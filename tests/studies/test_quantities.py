@@ -20,9 +20,9 @@ from disc_model.errors import Status
 from disc_model.parameters import Parameters
 from disc_model.stability import attractors
 from disc_model.stability.follower import Attractor, NearCycle, OutcomeResult
-from disc_model.stability.segments import Segment
 from disc_model.studies.quantity import HOMES, Range, quantity_of
 from tests.refusals import refusal
+from tests.stability.test_attractor import stretch
 
 P = Parameters(N=385, Omega=14)
 SEPARATED = {"prerun": {"parameters": {"Omega": 15.1}, "time": 70}}
@@ -323,21 +323,6 @@ SWEEPS = [
 ]
 
 
-def stretch(**changes: float) -> Segment:
-    """Of a separating motion."""
-    segment = Segment(
-        P_min=0.0,
-        P_max=1.0,
-        u_min=-0.01,
-        u_max=0.01,
-        stick_fraction=0.25,
-        slip_fraction=0.65,
-        separation_fraction=0.10,
-        separation_rate=135.0,
-    )
-    return replace(segment, **changes)
-
-
 @pytest.mark.parametrize(("rates", "onset", "offset", "said"), SWEEPS)
 def test_a_sweep_has_an_onset_and_an_end_or_says_why_not(
     rates: list[list[Any]], onset: float, offset: float, said: str, monkeypatch: pytest.MonkeyPatch
@@ -555,18 +540,19 @@ def test_samples_are_of_the_distributions_and_more_of_them_keep_the_first(
 # ---- Regions
 
 
-def near(*, stable: bool = False) -> NearCycle:
-    """A cycle that the static start follows."""
+def near(*, stable: bool = False, slow: bool = False) -> NearCycle:
+    """A cycle that the static start follows; `slow` if it grows too slowly to leave it."""
     known = {"growth_rate": 0.1, "period": 0.015, "releases": 1, "separations": 0, "parameters": P}
-    cycle: Any = SimpleNamespace(stable=stable, **known)
+    cycle: Any = SimpleNamespace(stable=stable, slow=slow, **known)
     map_: Any = SimpleNamespace(deflection=1.0)
-    return NearCycle(cycle, map_, np.zeros(0), np.zeros(0), np.eye(0))
+    return NearCycle(cycle, True, map_, np.zeros(2), np.zeros(2), np.eye(2))
 
 
-NO_CYCLE = SimpleNamespace(motion=CycleStatus.NO_CYCLE, state=None)
+NO_CYCLE = SimpleNamespace(motion=CycleStatus.NO_CYCLE)
 STARTS = [
     # what the search finds, method, outcome, what is said of the cycle
     (near(stable=True), "multipliers", "stick_slip", "followed"),
+    (near(slow=True), "multipliers", "growing", "followed"),
     (near(), "simulation", "separation", "followed"),
     (NO_CYCLE, "simulation", "separation", "no_cycle"),
 ]
@@ -579,6 +565,7 @@ def test_a_region_says_how_its_outcome_is_known(
     separation = OutcomeResult(Outcome.SEPARATION, 1.0, first_separation=40.0)
     monkeypatch.setattr("disc_model.stability.follower.cycle_of_static_start", lambda p: start)
     monkeypatch.setattr("disc_model.stability.follower.find_outcome", lambda *_, **__: separation)
+    monkeypatch.setattr(NearCycle, "stays_linear_until", lambda self, horizon: self.cycle.slow)
     found = dm.regions(P, 10)
     assert found["method"].item() == method
     assert found["outcome"].item() == outcome

@@ -9,13 +9,14 @@ docs/method.md, Outcomes, describes the search.
 import math
 import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
 
 import numpy as np
+from scipy.linalg import expm
 
 from disc_model.arrays import Array, ComplexArray
-from disc_model.data.variables import Outcome
+from disc_model.data.variables import CycleStatus, Outcome
 from disc_model.disc.plate import mode_arrays
 from disc_model.errors import Status
 from disc_model.parameters import Parameters
@@ -50,10 +51,13 @@ ARRIVED = 1e-8  # a motion as near to a stable cycle is on it: 10,000 times the 
 # errors of a long simulation, over its tolerance, in weakly damped modes: 12 were seen in the
 # paper's, 7,000 in modes of 2 kHz that decay at 0.4/s
 ERROR_OF_TOL = 10_000
-# s, between which the rate of a motion is compared with the multiplier's; if the first test fails, the
-# longer one resolves slower rates
+# s, at which a motion is compared with the linear one; if the first test fails, the longer one
+# resolves slower rates
 TEST_TIMES = ((0.3, 1.2), (1.5, 6.0))
 TEST_TOL = 1e-13  # of simulations in these tests, whose errors must be below `ARRIVED`
+# s, at which tests begin: near a resonance the strongly damped modes must decay first
+WAITS = (0.0, 1.5, 6.0, 15.0)
+LARGEST_ERROR = 0.1  # of the linear motion, relative to it: second order in the distance
 LARGEST_RATE_ERROR = 0.5  # of the growth rate, relative to it: it decides the sign of the rate
 LARGEST_PERIOD = 8  # releases in a period of cycles that are sought, to limit the time
 LINGERS = 1e-3  # largest change over a period of a motion that stays near an unstable cycle
@@ -77,11 +81,13 @@ class NearCycle:
     """A cycle and a motion near it, which is on the section of `map` at some time.
 
     cycle, x, jacobian : the cycle, its point (n,) on the section, the return map's Jacobian there
+    follows_cycle : whether the motion follows the linear map near the cycle
     distance : (n,), of the motion from `x` on the section, at `time`
-    time : s, of the motion
+    time : s, of the motion; if it follows the linear map only after some waiting, the end of that
     """
 
     cycle: FloquetResult
+    follows_cycle: bool
     map: ReturnMap
     x: Array
     distance: Array
@@ -121,16 +127,34 @@ class NearCycle:
         still = LINGERS * self.map.deflection
         return not self.cycle.stable and self._advance(self.x + self.distance, 1).residual <= still
 
-    @cached_property
-    def follows_cycle(self) -> bool:
-        """Whether the motion departs or approaches as the leading multiplier predicts. On a section of a
-        single point it is on the cycle."""
-        least = ARRIVED * self.map.deflection if self.cycle.stable else 0.0
-        return not len(self.x) or any(
-            _is_at_rate(
-                self._motion(self.distance, times), self.leading, self.cycle.growth_rate, least
-            )
-            for times in TEST_TIMES
+    def follows_multipliers(self, x: Array) -> bool:
+        """Whether the motion at a point of the section departs or approaches as the multipliers
+        predict. On a section of a single point it is on the cycle."""
+        return not len(x) or any(self._is_linear(x - self.x, times) for times in TEST_TIMES)
+
+    def after(self, wait: float) -> "NearCycle | None":
+        """The motion after a time of about `wait` (s); None if it does not return."""
+        if not wait:
+            return self
+        periods = max(1, round(wait / self.cycle.period))
+        orbit = self._advance(self.x + self.distance, periods, coarse=False)
+        if not orbit.returned:
+            return None
+        return replace(self, distance=orbit.end - self.x, time=self.time + orbit.period)
+
+    def stays_linear_until(self, horizon: float) -> bool:
+        """Whether a motion that leaves an unstable cycle is still near it at the horizon (s), as
+        the linear map predicts."""
+        periods = self._periods_left(horizon)
+        near = NEAR * self.map.deflection
+        # the leading part alone excludes most motions, of which powers might overflow
+        if not periods * self._growth + math.log(self._leading_part) <= math.log(2 * near):
+            return False
+        distance = self._ahead(periods)
+        if not np.linalg.norm(distance) <= near:
+            return False
+        return abs(self._excess_rate(distance)) <= LARGEST_OUTSIDE or self._is_linear(
+            distance, TEST_TIMES[0]
         )
 
     def extrapolate(self, latest: float) -> tuple[Array, float] | None:
@@ -195,12 +219,15 @@ class NearCycle:
             coarse=coarse,
         )
 
-    def _motion(self, distance: Array, times: Sequence[float]) -> Iterator[tuple[Array, float]]:
-        """The motion from a distance on, at about these times (s), as long as it returns: its distance, and
-        the time since the last."""
+    def _motion(
+        self, distance: Array, times: Sequence[float]
+    ) -> Iterator[tuple[Array, Array, float]]:
+        """The motion from a distance on, at about these times (s), as long as it returns: its distance,
+        that of the linear motion, and the time since the last."""
         # the errors of coarse orbits would matter at a smaller distance
         coarse = bool(np.linalg.norm(distance) > SAME_POINT * self.map.deflection)
         x = self.x + distance
+        expected = distance
         done = 0
         for i, time in enumerate(times, 1):
             count = max(i, round(time / self.cycle.period)) - done
@@ -208,8 +235,17 @@ class NearCycle:
             if not orbit.returned:
                 return
             x = orbit.end
-            yield x - self.x, count * self.cycle.period
+            expected = np.linalg.matrix_power(self.jacobian, count) @ expected
+            yield x - self.x, expected, count * self.cycle.period
             done += count
+
+    @np.errstate(over="ignore", invalid="ignore")  # powers of a strongly unstable cycle's Jacobian
+    def _is_linear(self, distance: Array, times: tuple[float, float]) -> bool:
+        """Whether the motion at that distance departs from the cycle, or approaches it, as its
+        multipliers predict."""
+        least = ARRIVED * self.map.deflection if self.cycle.stable else 0.0
+        motion = self._motion(distance, times)
+        return _is_as_expected(motion, self.leading, self.cycle.growth_rate, least)
 
     def _excess_rate(self, distance: Array) -> float:
         """Relative excess of the growth rate over the leading multiplier's; infinite unless the
@@ -217,7 +253,7 @@ class NearCycle:
         and matters only near borders, is ignored."""
         apart = distance
         durations = []
-        for apart, duration in self._motion(distance, TEST_TIMES[-1]):
+        for apart, _, duration in self._motion(distance, TEST_TIMES[-1]):
             durations.append(duration)
             if not self._share_outside(apart) <= LARGEST_OUTSIDE:
                 return math.inf
@@ -241,15 +277,20 @@ def _leading(matrix: Array, size: Callable[[ComplexArray], Array]) -> ComplexArr
     return np.asarray(vectors[:, np.argmax(size(values))], dtype=complex)
 
 
-def _is_at_rate(
-    motion: Iterable[tuple[Array, float]], leading: ComplexArray, rate: float, least: float
+def _is_as_expected(
+    motion: Iterable[tuple[Array, Array, float]], leading: ComplexArray, rate: float, least: float
 ) -> bool:
-    """Whether the leading part of a motion grows at a rate (1/s) between two times, or has fallen to a
-    distance `least`.
+    """Whether a motion is the linear one at two times, but for `LARGEST_ERROR` of it or for a distance
+    `least`, and the leading part grows at a rate (1/s) between them, or has fallen to `least`.
 
-    motion : distance, and time since the last (s)
+    motion : distance, that of the linear motion, and time since the last (s)
     """
-    parts = [(float(abs(leading @ apart)), duration) for apart, duration in motion]
+    parts = list[tuple[float, float]]()
+    for apart, expected, duration in motion:
+        largest = max(LARGEST_ERROR * float(np.linalg.norm(expected)), least)
+        if not np.linalg.norm(apart - expected) <= largest:
+            return False
+        parts.append((float(abs(leading @ apart)), duration))
     if len(parts) < 2:
         return False
     (before, _), (after, duration) = parts
@@ -259,35 +300,30 @@ def _is_at_rate(
 
 
 def cycle_of_static_start(p: Parameters) -> NearCycle | FloquetResult:
-    """The cycle near the static start, with the motion from there; without one of them, the result of
-    the search for the cycle."""
+    """The cycle near the static start, and whether the start follows it; without a cycle, the
+    result of the search."""
     if not may_stick_and_slip(p):
         return find_cycle(p)
     map_ = ReturnMap(p)
     cycle = cycle_from_rest(map_)
-    if cycle.state is None or not map_.first_release.reached:
+    if cycle.status is not CycleStatus.OK:
         return cycle
-    return _near(map_, cycle, map_.first_release)
+    return _relate(map_, cycle, map_.first_release, WAITS)
 
 
 def find_cycle_near(
-    map_: ReturnMap, release: Passage, change: float, releases: int
+    map_: ReturnMap, release: Passage, change: float, releases: int, unstable: Sequence[float] = ()
 ) -> NearCycle | None:
-    """The cycle near a motion that changes by so little over some releases."""
+    """The cycle near a motion that changes by so little over some releases, and whether the motion
+    follows it. If the cycle is unstable, tests for that begin at the times `unstable`, s after the
+    release."""
     if not change <= NEAR / 2:
         return None
     orbit = newton(map_, release.x, releases=releases, may_separate=map_.patient)
     if orbit is None or map_.apart(orbit.start, release.x) > NEAR:
         return None
-    return _near(map_, cycle_of(map_, run_through_once(map_, orbit)), release)
-
-
-def _near(map_: ReturnMap, cycle: FloquetResult, release: Passage) -> NearCycle:
-    """The motion at one of its releases in relation to a cycle."""
-    assert cycle.state is not None
-    x = map_.point(cycle.state)
-    orbit = map_.evaluate(x, releases=cycle.releases, may_separate=cycle.separations > 0)
-    return NearCycle(cycle, map_, x, release.x - x, orbit.jacobian, release.time)
+    cycle = cycle_of(map_, run_through_once(map_, orbit))
+    return _relate(map_, cycle, release, WAITS if cycle.stable else unstable)
 
 
 def close_return(map_: ReturnMap, x: Array, most: int = LARGEST_PERIOD) -> tuple[float, int]:
@@ -300,6 +336,24 @@ def close_return(map_: ReturnMap, x: Array, most: int = LARGEST_PERIOD) -> tuple
         if change <= 2 * min(changes):
             return change, i
     return math.nan, 0
+
+
+def _relate(
+    map_: ReturnMap, cycle: FloquetResult, release: Passage, waits: Sequence[float]
+) -> NearCycle:
+    """The motion at one of its releases in relation to a cycle; tests whether it follows the cycle
+    begin at the times `waits`, s after the release."""
+    assert cycle.state is not None
+    x = map_.point(cycle.state)
+    orbit = map_.evaluate(x, releases=cycle.releases, may_separate=cycle.separations > 0)
+    near = NearCycle(cycle, False, map_, x, release.x - x, orbit.jacobian, release.time)
+    moving: NearCycle | None = near if release.reached else None
+    for wait in waits:
+        if moving is not None:
+            moving = moving.after(max(0.0, wait - (moving.time - release.time)))
+        if moving is not None and near.follows_multipliers(x + moving.distance):
+            return replace(moving, follows_cycle=True)
+    return near
 
 
 _sliding = lru_cache(maxsize=1)(steady_sliding)  # needed at the end of each leg of a motion
@@ -334,8 +388,8 @@ def departs_from_sliding(p: Parameters, state: State) -> bool:
 def _follows_eigenvalues(
     p: Parameters, state: State, times: tuple[float, float], arrived: float, farthest: float
 ) -> bool:
-    """Whether a slipping motion grows or decays between two times (s) from a state on as the leading
-    eigenvalue of steady sliding predicts.
+    """Whether a slipping motion follows the linear one about steady sliding at two times (s) from a
+    state on.
 
     arrived, farthest : distance within which a motion has arrived, and the largest of the state,
         over the static deflection
@@ -354,18 +408,24 @@ def _follows_eigenvalues(
     if not np.linalg.norm(distance) <= farthest * static:
         return False
 
+    def motion() -> Iterator[tuple[Array, Array, float]]:
+        expected = distance
+        before = 0.0
+        for time in times:
+            end = state.time + time
+            run = simulate(p, end, tol=TEST_TOL, initial_state=state, events=False)
+            if not run.status.complete or run.final_state.phase != "slip":
+                return
+            expected = expm(jacobian * (time - before)) @ expected
+            yield (
+                scale * (rows_of_state(p, run.final_state) - sliding.rows),
+                expected,
+                time - before,
+            )
+            before = time
+
     leading = _leading(jacobian.T, np.real)
-    motion = list[tuple[Array, float]]()
-    before = 0.0
-    for time in times:
-        end = state.time + time
-        run = simulate(p, end, tol=TEST_TOL, initial_state=state, events=False)
-        if not run.status.complete or run.final_state.phase != "slip":
-            return False
-        apart = scale * (rows_of_state(p, run.final_state) - sliding.rows)
-        motion.append((apart, time - before))
-        before = time
-    return _is_at_rate(motion, leading, sliding.growth_rate, arrived * static)
+    return _is_as_expected(motion(), leading, sliding.growth_rate, arrived * static)
 
 
 # ---- The search for an outcome
@@ -529,7 +589,7 @@ class _Search:
                 if extrapolate and self._extrapolate(result, cycle):
                     # nothing is to be seen before the departure has grown by a factor of e
                     leg = min(max(leg, 1 / cycle.cycle.growth_rate), LONGEST_LEG)
-                    end = self._end_after(result.time)
+                    end = (1 + BORDER) * self.horizon
             if result.time >= end:
                 grows = departs or growing(result.changes)
                 result.outcome = Outcome.GROWING if grows else Outcome.UNDECIDED
@@ -565,11 +625,6 @@ class _Search:
         result.extrapolated = True
         result.note_change(close_return(near.map, x)[0])
         return True
-
-    def _end_after(self, time: float) -> float:
-        """The time to which a motion is followed that was extrapolated up to one: somewhat beyond the
-        horizon, unless it is linear up to that."""
-        return time if time >= self.horizon else (1 + BORDER) * self.horizon
 
     def _simulate(self, result: OutcomeResult, leg: float, end: float) -> Result:
         """Simulate a leg to its end or the first separation; the segment to be described is a leg
@@ -608,7 +663,8 @@ class _Search:
         departs = result.near is not None and bool(known) and known[-1] > least
         if departs or not examined:
             return None
-        near = find_cycle_near(self.map, release, change, releases)
+        waits = WAITS if result.near is None else WAITS[:1]
+        near = find_cycle_near(self.map, release, change, releases, unstable=waits)
         return near if near is not None and near.follows_cycle else None
 
 

@@ -1,7 +1,7 @@
 """Segments of motions: stretches that are simulated, and described by ranges and shares of time."""
 
-import math
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -101,15 +101,27 @@ def event_times(leg: Result, kind: int) -> Array:
     return rows[rows[:, KIND] == kind, TIME]
 
 
-def extremes_of_cycle(p: Parameters, state: State, period: float) -> tuple[float, float]:
-    """Least and greatest height of the slider over static equilibrium (m) over a period (s) from a
-    state of a cycle; nan if it cannot be simulated."""
+class Extremes(NamedTuple):
+    """Least and greatest height of the slider over static equilibrium, m."""
+
+    u_min: float
+    u_max: float
+
+    @property
+    def range(self) -> float:
+        """Range of the height, m."""
+        return self.u_max - self.u_min
+
+
+def extremes_of_cycle(p: Parameters, state: State, period: float) -> Extremes:
+    """Extremes of the slider's height over a period (s) from a state of a cycle; nan if it cannot be
+    simulated."""
     window = Window(start=state.time, rate=SAMPLES_OF_CYCLE / period)
     result = simulate(p, state.time + period, {"cycle": window}, initial_state=state)
     if not result.status.complete:
-        return math.nan, math.nan
+        return Extremes(float("nan"), float("nan"))
     height = result.samples["cycle"]["u"] - result.u_0
-    return -_peak(-height), _peak(height)
+    return Extremes(-_peak(-height), _peak(height))
 
 
 def _peak(samples: Array) -> float:

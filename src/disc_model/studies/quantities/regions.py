@@ -1,6 +1,7 @@
 """Outcome of the static start, and the cycle that it follows.
 
-Multipliers give the outcome where the start stays on its cycle. Elsewhere the start is followed.
+Multipliers give the outcome where the start stays on its cycle, or grows too slowly for anything else.
+Elsewhere the start is followed.
 """
 
 from __future__ import annotations
@@ -71,6 +72,8 @@ def regions(
     message = ""
     if followed and followed.cycle.stable:
         values["outcome"] = Outcome.STICK_SLIP
+    elif followed and followed.stays_linear_until(horizon):
+        values["outcome"] = Outcome.GROWING
     else:
         is_timed = any(place.items() <= case.numbers.items() for place in timed)
         compared_with = () if is_timed else (horizon,)
@@ -90,7 +93,7 @@ def regions(
         values |= _columns_of(followed.cycle)
     elif values["outcome"] == Outcome.STEADY_SLIDING:
         values["cycle"] = "steady_sliding"
-    elif isinstance(start, NearCycle) or start.state is not None:
+    elif isinstance(start, NearCycle):
         values["cycle"] = "nearby_only"
     else:
         of_search = (*STABLE_CYCLES, "unstable_sliding")
