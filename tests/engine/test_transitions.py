@@ -72,6 +72,25 @@ def test_a_slider_that_touches_down_without_speed_slips_to_the_side_of_its_sprin
     assert np.sign(result.final_state.f) == np.sign(psi)
 
 
+@pytest.mark.parametrize("sense", [pytest.param(sense, marks=COMPILES) for sense in (1, -1)])
+def test_a_slider_that_touches_down_slips_on_against_its_spring(sense: int) -> None:
+    """With the sign of f, of which the spring alone takes k_p psi t / m = 0.08 rad/s."""
+    p = Parameters(N=200, Omega=10, n_diameters=1, contact_compliance=1e-7)
+    start = static_start(p)
+    falling = start.replace(
+        phase="separation",
+        direction=0,
+        psi=-0.02 * sense,
+        u=p.N * 1e-7 + start.u,
+        u_velocity=-0.2,
+        f=5.0 * sense,
+        _roots=(0, 0),
+    )
+    end = simulate(p, 2e-5, initial_state=falling).final_state
+    assert end.direction == sense
+    assert end.f == pytest.approx(4.91 * sense, abs=0.02)
+
+
 # ------------------------------------------------------------------------ errors where a phase begins
 TOLERANCE = 1e-3
 """Of the series: so large that rounding is nothing beside it."""

@@ -121,12 +121,21 @@ def test_shortcuts_agree_with_brute_force() -> None:
 
 
 def kick_energy(p: Parameters, state: State, start: State) -> float:
-    """Of the difference of two states: the modes', that of the slider's mass and of its spring."""
+    """Of the difference of two states: the modes', that of the slider's mass and of its spring, and that
+    of the mass on a surface that moves along."""
     omega = mode_arrays(p).omega
     moved = np.array([omega * (state.a - start.a), omega * (state.b - start.b)])
     speeds = np.array([state.alpha - start.alpha, state.beta - start.beta])
     slider = p.k * (state.u - start.u) ** 2 + p.m * (state.u_velocity - start.u_velocity) ** 2
-    return 0.5 * (float(np.sum(moved**2) + np.sum(speeds**2)) + slider)
+    along = p.m * (p.r_0 * (state.f - start.f)) ** 2
+    return 0.5 * (float(np.sum(moved**2) + np.sum(speeds**2)) + slider + along)
+
+
+def test_a_kick_of_the_surface_has_the_energy_asked_for() -> None:
+    p = P14.replace(friction_offset=0.02)
+    start = static_start(p)
+    kicked = random_perturbation(p, start, 0.3, (1, 0, 5))
+    assert kick_energy(p, kicked, start) == pytest.approx(0.3, rel=1e-12)
 
 
 def test_a_kick_has_the_energy_asked_for_and_its_direction_hangs_on_its_key_alone() -> None:

@@ -3,16 +3,17 @@ map."""
 
 import cmath
 import math
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from scipy.optimize import linear_sum_assignment
 
-from disc_model import Parameters, coupled_natural_frequencies, plate_modes
+from disc_model import Parameters, coupled_natural_frequencies, floquet, plate_modes
 from disc_model.analysis.spectra import modes_at_rest, nearest_resonance
 from disc_model.stability import frequencies as frequencies_module
-from disc_model.stability.frequencies import frequencies
+from disc_model.stability.frequencies import frequencies, may_be_near
 from disc_model.stability.return_map import ReturnMap
 
 BASE = Parameters(N=385, Omega=14)
@@ -123,3 +124,11 @@ def test_of_two_real_multipliers_a_mode_grows_by_the_larger(monkeypatch: pytest.
             rest = 0
         assert turns % 1 == pytest.approx(rest, abs=1e-9)
         assert abs(frequency[mode] - modes.frequency[mode]) <= 0.5 * rate
+
+
+@pytest.mark.compiled
+@pytest.mark.parametrize(("growth", "near"), [(35, True), (39, False)])
+def test_growth_is_counted_over_the_returns_of_the_motion(growth: float, near: bool) -> None:
+    """Up to a factor of e^37 in the 300 returns after which the motion is compared with the cycle."""
+    cycle = floquet(Parameters(N=260, Omega=19))
+    assert may_be_near(replace(cycle, growth_rate=growth / (300 * cycle.period))) is near

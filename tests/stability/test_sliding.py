@@ -244,6 +244,27 @@ def test_the_growth_rate_of_neutral_sliding_is_exactly_0(p):
 
 
 # ------------------------------------------------------------------------ modes
+
+
+@pytest.mark.parametrize("modes", [([2, 1, 3], [0, 1, 1], [0.4, 0.35, 0.25]), ([0], [0], [1.0])])
+def test_a_mode_has_the_circles_of_most_energy_and_the_shares_of_a_mass_on_springs(modes):
+    """Modes of 1000 rad/s and the mass on 1e6 N/m move together at the square root of 4e6/3."""
+    diameters, circles, energies = modes
+    n = len(diameters)
+    disc = Disc(
+        diameters=diameters,
+        circles=circles,
+        omega=[1000.0] * n,
+        amplitude=np.sqrt(energies).tolist(),
+        damping_ratio=[0.0] * n,
+    )
+    springs = {"k": 1e6, "k_p": 1e-3, "m": 0.5, "mu_s": 0, "mu_k": 0, "contact": "bilateral"}
+    found = sliding_modes(Parameters(N=1, Omega=1e-3, disc=disc, **springs))
+    i = np.argmin(np.abs(2 * np.pi * found.frequency - np.sqrt(4e6 / 3)))
+    assert (found.diameters[i], found.circles[i]) == (diameters[0], circles[0])
+    assert found.across[i] == pytest.approx(5 / 12, abs=1e-3)
+
+
 def test_modes_are_the_eigenvalues_of_steady_sliding():
     """With what brake engineers read from them: frequency in Hz, damping ratio, number of unstable
     modes."""

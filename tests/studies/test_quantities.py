@@ -129,6 +129,12 @@ TABLE: list[tuple[str, Parameters, dict[str, Any], dict[str, Any]]] = [
         {"onset_speed": [17.350035, 19.032361], "offset_speed": [9.427039, 9.244294]},
     ),
     (
+        "ramps",  # at the top it separates once in each vibration of 135.4 Hz
+        P,
+        {"bounds": (8, 22), "dwell": 20, "rates": (0.1,)},
+        {"top_separation_rate": 135.35},
+    ),
+    (
         "range_law",
         P.replace(Omega=15.1),
         {"horizon": 3, "displaced_horizon": 20},
@@ -452,6 +458,7 @@ MADE_UP: list[tuple[dict[str, Any], dict[str, Any], list[tuple[float, float, str
     ({"rate": PEAK + 0.15, "of_mode": PEAK + 0.15}, {}, [(10, 1, "destabilises")]),
     ({"rate": LEVEL}, {}, [(10, 1, "mode_rises")]),
     ({"rate": LEVEL, "of_mode": LEVEL}, {}, [(10, 1, "no_rise")]),
+    ({"rate": 0.2 * (SPEEDS - 11), "of_mode": LEVEL}, {}, [(10, 1, "no_rise")]),
     ({"rate": np.where(GAP, math.nan, PEAK)}, {}, [(10, 1, "no_cycle")]),
     ({"near": np.where(GAP, 0.0, math.nan)}, {}, [(10, 1, "not_near")]),
     ({"of_mode": NOWHERE}, {}, [(10, 1, "unresolved")]),
@@ -607,6 +614,19 @@ def test_separation_holds_the_range_where_contact_is_lost(
     assert 1e3 * found["range"].item() == pytest.approx(extent, rel=0.005)
     assert min(found["vibration_share"], found["force_share"]) >= 0.95
     assert found["deviation"].item() == pytest.approx(found["flight_excess"].item(), abs=0.01)
+    if changes["Omega"] == 15.1:
+        # contact is lost at 0.98963 of the range, by its events; the next sample lies up to 0.011 above
+        assert 0.9896 <= found["loss_position"].item() <= 0.9896 + 0.011
+
+
+def test_the_rate_of_changes_is_that_of_the_last_ones(monkeypatch: pytest.MonkeyPatch) -> None:
+    times = np.array([0.0, 1, 2, 4, 8])
+    changes = 1e-3 * np.exp(-0.5 * times)
+    changes[0] = 1.0
+    reached = OutcomeResult(Outcome.UNDECIDED, 10.0, changes=[*changes], times=[*times])
+    monkeypatch.setattr("disc_model.stability.follower.find_outcome", lambda *_, **__: reached)
+    found = dm.outcome(P, 10, evaluation_time=0.05)
+    assert found["return_map_residual_rate"].item() == pytest.approx(-0.5)
 
 
 MOTIONS = [
