@@ -28,12 +28,11 @@ PAGE = 2055
 """Pixels of such a figure as it was drawn."""
 
 
-def shrink(source: Path, target: Path) -> Path:
+def shrink(source: Path, target: Path) -> None:
     """Write a small copy of a picture, in true colour; equal ones give equal bytes."""
     with Image.open(source) as picture:
         small = ImageOps.scale(picture.convert("RGB"), WIDTH / PAGE, Image.Resampling.LANCZOS)
     small.save(target, optimize=True)
-    return target
 
 
 def draw_first_study() -> None:
