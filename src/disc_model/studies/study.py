@@ -243,14 +243,14 @@ class Study(Strict):
     @cached_property
     def points(self) -> pd.DataFrame:
         """What varies, a row for each point that is not left out; raises `ParameterError`."""
-        points = self._kept(self.dims)
+        points = expand(self.dims)[self._kept]
         require((len(points), "where", " and ".join(self.where), "leaves no point"))
         return points
 
-    def _kept(self, dims: Mapping[str, pd.DataFrame]) -> pd.DataFrame:
-        """The points along dimensions that are not left out."""
-        points = expand(dims)
-        return points[keeps(points, self.where, self._beside)]
+    @cached_property
+    def _kept(self) -> list[bool]:
+        """Of all points of the grid, which are not left out."""
+        return keeps(expand(self.dims), self.where, self._beside)
 
     @property
     def _beside(self) -> dict[str, Any]:
@@ -295,7 +295,7 @@ class Study(Strict):
                 x: disc.model_dump(mode="json") for x, disc in self.discs.items() if x in used
             },
             "dims": {dim: frame.to_dict("list") for dim, frame in self.dims.items()},
-            "kept": keeps(expand(self.dims), self.where, self._beside),
+            "kept": self._kept,
         }
 
     @cached_property
@@ -323,7 +323,8 @@ class Study(Strict):
         few = dict(self.dims)
         if len(self.points) > ALL_MOTIONS:
             few = {dim: thinned(frame, motion.number) for dim, frame in self.dims.items()}
-        points = self._kept(few).to_dict("records")
+        chosen = expand(few)
+        points = chosen[keeps(chosen, self.where, self._beside)].to_dict("records")
         text = _text({**self.layout, "code": physics_hash(), "points": points})
         return {content_key(text): text} if points else {}
 
