@@ -49,9 +49,8 @@ MOST_POINTS = 100_000  # largest number of values: an hour of work
 SHORTEST = 1e-6  # of the range, to which crossings are located
 NARROWEST = 1e-5  # of the range: between values closer than that no further ones are computed
 ROUNDS = 8  # times that places of suspected instability are predicted anew
-LONGEST_TURN = (
-    0.3  # rad, of a multiplier from one value to the next: beyond, it may be taken for another
-)
+# rad, of a multiplier from one value to the next: beyond, it may be taken for another
+LONGEST_TURN = 0.3
 # the angles of a pair at two values, from the real axis, over the longest turn of any multiplier:
 # up to this, the pair may have met the axis in between, and have left it again on the same side
 MAY_HAVE_MET = 1.5
@@ -218,8 +217,8 @@ def critical(
 
     It is computed at equal steps, between which a window may be missed. Instability often lies in much
     narrower tongues, where multipliers meet on the unit circle. Their angles change smoothly, so that
-    these places are predicted from neighbouring values, and computed as well. Of steady sliding, the
-    greatest growth rates between values are looked for.
+    these places are predicted from neighbouring values, and computed as well. Of steady sliding
+    nothing is computed between the values: growth in narrower windows is missed.
 
     Parameters
     ----------
