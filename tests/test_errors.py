@@ -16,7 +16,7 @@ def test_a_fault_is_its_text_and_knows_its_parts() -> None:
     assert str(copy) == "N=-1: must be >= 0; k=nan: must be finite"
     again, other = copy.faults
     assert (again.path, again.value, again.rule) == (("N",), "-1", "must be >= 0")
-    assert again.inside(("base",)) == "base.N=-1: must be >= 0"
+    assert str(again.inside(("base",))) == "base.N=-1: must be >= 0"
     assert other.path == ()
 
 

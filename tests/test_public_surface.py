@@ -167,7 +167,9 @@ def test_a_wrong_number_is_named(function, others, name, right, tmp_path, monkey
         if label not in right:
             with pytest.raises(dm.ParameterError) as error:
                 function(**others | {name: value})
-            assert any(name in re.findall(r"\w+", fault) for fault in error.value.faults), label
+            assert any(name in re.findall(r"\w+", str(fault)) for fault in error.value.faults), (
+                label
+            )
 
 
 RESULTS: tuple[Callable[[dm.Parameters], Any], ...] = (

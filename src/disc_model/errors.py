@@ -9,7 +9,7 @@ import re
 import reprlib
 import sys
 from collections.abc import Callable, Collection
-from typing import Any, Self
+from typing import Any, NamedTuple, Self
 
 from pydantic import BaseModel, ValidationError
 
@@ -18,25 +18,16 @@ class DiscModelError(Exception):
     """Base class of the exceptions of this package."""
 
 
-class Fault(str):
+class Fault(NamedTuple):
     """A fault of one value, as ``path=value: rule``; of the whole input without a path."""
 
     path: tuple[str, ...]
     value: str
     rule: str
 
-    def __new__(cls, path: tuple[str, ...], value: str, rule: str) -> Fault:
-        head = ".".join(path)
-        if head and value:
-            head = f"{head}={value}"
-        fault = super().__new__(cls, f"{head}: {rule}" if head else rule)
-        fault.path = path
-        fault.value = value
-        fault.rule = rule
-        return fault
-
-    def __getnewargs__(self) -> tuple[tuple[str, ...], str, str]:  # type: ignore[override]
-        return (self.path, self.value, self.rule)
+    def __str__(self) -> str:
+        place = "=".join(filter(None, [".".join(self.path), self.value]))
+        return ": ".join(filter(None, [place, self.rule]))
 
     @classmethod
     def of(cls, path: tuple[str, ...], value: Any, rule: str) -> Fault:
@@ -53,16 +44,15 @@ class ParameterError(DiscModelError, ValueError):
 
     Attributes
     ----------
-    faults : tuple of str
-        The individual faults, in the order of the message.
+    faults : tuple
+        The individual faults, in the order of the message, each with its path, value and rule.
     """
 
-    def __init__(self, *faults: str) -> None:
-        whole = [each if isinstance(each, Fault) else Fault((), "", each) for each in faults]
-        self.faults = tuple(whole)
-        super().__init__("; ".join(faults))
+    def __init__(self, *faults: Fault | str) -> None:
+        self.faults = tuple(Fault((), "", x) if isinstance(x, str) else x for x in faults)
+        super().__init__("; ".join(map(str, faults)))
 
-    def __reduce__(self) -> tuple[type[ParameterError], tuple[str, ...]]:
+    def __reduce__(self) -> tuple[type[ParameterError], tuple[Fault, ...]]:
         return (type(self), self.faults)
 
 
@@ -94,25 +84,28 @@ class NonFinite(SimulationError):
 # ---- Rules
 
 
-def raise_faults(faults: Collection[str]) -> None:
+Check = tuple[object, str, object, str]
+"""Whether a rule holds, and if not: the name, in which dots join a path, the value and the rule."""
+
+
+def raise_faults(faults: Collection[Fault]) -> None:
     """Raise one `ParameterError` that lists all faults, if there are any."""
     if faults:
         raise ParameterError(*faults)
 
 
-def violations(*rules: tuple[object, str, object, str]) -> list[str]:
-    """Faults of those rules ``(holds, name, value, rule)`` that do not hold; dots in a name join a
-    path."""
-    faults: list[str] = []
-    for holds, name, value, rule in rules:
+def violations(*checks: Check) -> list[Fault]:
+    """Faults of those rules that do not hold."""
+    faults = []
+    for holds, name, value, rule in checks:
         if not holds:
             faults.append(Fault.of(tuple(name.split(".")), value, rule))
     return faults
 
 
-def require(*rules: tuple[object, str, object, str]) -> None:
+def require(*checks: Check) -> None:
     """Raise the `violations` of rules, if there are any."""
-    raise_faults(violations(*rules))
+    raise_faults(violations(*checks))
 
 
 # ---- Wording

@@ -151,7 +151,7 @@ def _records(data: Any) -> Any:
     return [row.dropna().to_dict() for _, row in table.iterrows()]
 
 
-def _faults(case: Parameters, request: _Request) -> Iterator[str]:
+def _faults(case: Parameters, request: _Request) -> Iterator[Fault]:
     """Yield the faults of names, starts and settings of a case."""
     for name in request.vary:
         if name not in case.numbers:
@@ -170,7 +170,7 @@ def _faults(case: Parameters, request: _Request) -> Iterator[str]:
             yield from (Fault.inside(fault, ("data", str(i))) for fault in error.faults)
 
 
-def _faults_of_start(case: Parameters, data: Sequence[_Measurement]) -> Iterator[str]:
+def _faults_of_start(case: Parameters, data: Sequence[_Measurement]) -> Iterator[Fault]:
     """Yield a fault of each measured quantity that the case does not have."""
     for i, deviation in enumerate(_deviations(case, data)):
         if math.isnan(deviation):

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Self
 from pydantic import Field, field_validator, model_validator
 
 from disc_model.display import counted, frequencies_text
-from disc_model.errors import raise_faults, require
-from disc_model.units import Count, Finite, Positive, Strict, Unit, limits_faults, within
+from disc_model.errors import Check, raise_faults, require
+from disc_model.units import Count, Finite, Positive, Strict, Unit, between, limits_faults
 
 if TYPE_CHECKING:
     import os
@@ -83,7 +83,7 @@ class Disc(Strict):
     """
 
     diameters: tuple[Annotated[Count, Field(ge=0, le=60)], ...]
-    omega: tuple[Annotated[Finite, within(FREQUENCIES)], ...]
+    omega: tuple[Annotated[Finite, between(FREQUENCIES)], ...]
     amplitude: tuple[Finite, ...]
     damping_ratio: tuple[Annotated[Finite, Field(ge=0, lt=1)], ...] = Field(
         (), validate_default=True
@@ -114,7 +114,7 @@ class Disc(Strict):
         count = len(self.diameters)
         rule = f"must be 1 to {MOST_MODES} modes"
         require((1 <= count <= MOST_MODES, "diameters", count, rule))
-        rules: list[tuple[object, str, object, str]] = []
+        rules: list[Check] = []
         for name in self._columns:
             length = len(getattr(self, name))
             good = length == count or not (length or name in ("omega", "amplitude"))

@@ -17,8 +17,7 @@ from pydantic import Field
 from disc_model.arrays import Array
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import coupled_frequencies, mode_arrays
-from disc_model.disc.thin_plate import shortest_wave
-from disc_model.display import Summarised, counted
+from disc_model.display import counted
 from disc_model.errors import DiscModelError
 from disc_model.parameters import Parameters
 from disc_model.stability.floquet import floquet
@@ -41,7 +40,7 @@ LARGER = ((10, 1), (10, 2), (14, 2), (10, 3), (14, 3))
 
 
 @dataclass(frozen=True)
-class ModeChoice(Summarised):
+class ModeChoice:
     """The smallest model that meets a tolerance, and the basis of the choice.
 
     Attributes
@@ -68,21 +67,6 @@ class ModeChoice(Summarised):
     def __repr__(self) -> str:
         modes = counted(self.modes, "real mode")
         return f"ModeChoice({modes}, by {self.quantity}, error {self.error:.2g})"
-
-    def _summary(self) -> Iterator[tuple[str, object]]:
-        p = self.parameters
-        if p.disc is None:
-            yield "diameters and circles", f"{p.n_diameters}, {p.n_circles}"
-        yield "real modes", self.modes
-        yield "chosen by", self.quantity
-        if self.quantity != FREQUENCIES:
-            yield "at", f"{p.Omega:g} rad/s, {p.N:g} N; other speeds may need more modes"
-        yield "error", f"{self.error:.2g}, relative; {self.tolerance:g} was asked for"
-        shortest = shortest_wave(p)
-        if shortest is not None:
-            waves = f"waves of {shortest.length:.3g} thicknesses"
-            excess = f"{100 * shortest.excess:.2g} % too high"
-            yield "highest mode", f"{waves}, frequency of a thin plate {excess}"
 
 
 class UndecidedModes(DiscModelError):

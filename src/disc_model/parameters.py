@@ -6,14 +6,21 @@ import json
 import math
 import warnings
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self, cast
 
-from pydantic import AfterValidator, BeforeValidator, Field, model_validator
+from pydantic import (
+    AfterValidator,
+    BeforeValidator,
+    Field,
+    ValidationInfo,
+    field_validator,
+    model_validator,
+)
 
 from disc_model.errors import Fault, ImplausibleValue, as_text, require
 from disc_model.modal_disc import Disc
 from disc_model.provenance import content_key
-from disc_model.units import UNITS, Count, Finite, Real, Strict, must
+from disc_model.units import UNITS, Count, Finite, Real, Strict, in_si, must
 
 RESIDUAL = "residual"  # value of ``contact_compliance`` that stands for the static flexibility of the modes left out
 NUMBER_OR_WORD = ("contact_compliance", "friction_offset")  # parameters that are one or the other
@@ -191,6 +198,11 @@ class Parameters(Strict):
 
         def __init__(self, **values: Any) -> None: ...
 
+    @field_validator("*", mode="before")
+    @classmethod
+    def _in_si(cls, value: Any, info: ValidationInfo) -> Any:
+        return in_si(value, cls.unit(str(info.field_name)))
+
     @model_validator(mode="after")
     def _consistent(self) -> Self:
         """Check the rules between parameters, what a disc excludes, and that the plate has one
@@ -316,7 +328,8 @@ class Parameters(Strict):
         return UNITS.get(name, "")
 
 
-UNITS.update(Parameters._units({}))  # type: ignore[arg-type]
+for _name, _each in Parameters.model_fields.items():
+    UNITS[_name] = cast(dict[str, str], _each.json_schema_extra)["unit"]
 
 DEFAULTS = {
     name: field.default
@@ -325,7 +338,7 @@ DEFAULTS = {
 }
 
 
-def foreign_case(case: object) -> list[str]:
+def foreign_case(case: object) -> list[Fault]:
     """Faults of an argument `case`, which must be `Parameters`."""
     if isinstance(case, Parameters):
         return []

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import functools
 import inspect
-import json
 import numbers
 import re
 from collections.abc import Callable, Mapping
@@ -18,22 +17,21 @@ from typing import (
     Self,
     TypeGuard,
     TypeVar,
-    get_args,
     get_type_hints,
 )
 
 from pydantic import (
-    AfterValidator,
     BaseModel,
     BeforeValidator,
     ConfigDict,
     Field,
     ValidationError,
+    ValidationInfo,
     create_model,
-    model_validator,
 )
+from pydantic_core.core_schema import with_info_before_validator_function
 
-from disc_model.errors import Fault, ParameterError, faults_of, raise_faults, violations
+from disc_model.errors import Fault, ParameterError, faults_of, violations
 
 # Least and greatest tolerance
 TOLERANCES = (1e-15, 1e-2)  # of a simulation: error of event times after a second of motion, s
@@ -41,19 +39,26 @@ CYCLE_TOLERANCES = (1e-14, 1e-6)  # of the search for a cycle: relative residual
 
 # ---- Units
 
-Units = str | Mapping[str, "Units"]  # a unit; or, for values by name, those that have one
+Units = str | Mapping[str, str]  # a unit; or, for values by name, those that have one
+UNITS: dict[str, str] = {}  # units of parameters by their names, filled by `disc_model.parameters`
 
 
 @dataclass(frozen=True, eq=False)
 class Unit:
-    """The SI unit of numbers, which marks their type; or the field `of` that names the parameter
-    with this unit."""
+    """The SI unit of numbers, which marks their type: those with a unit are converted; or the field `of`
+    that names the parameter with this unit."""
 
     name: Units = ""
     of: str = ""
 
+    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> Any:
+        def converted(value: Any, info: ValidationInfo) -> Any:
+            if self.of:
+                return in_si(value, UNITS.get(str(info.data.get(self.of)), ""))
+            return in_si(value, self.name)
 
-UNITS: dict[str, str] = {}  # units of parameters by their names, filled by `disc_model.parameters`
+        return with_info_before_validator_function(converted, handler(source))
+
 
 NUMBER = r"[-+]?(?:\d++\.?+\d*+|\.\d++)(?:[eE][-+]?\d++)?+"
 """A number in a text; its exponent is not taken for a unit."""
@@ -97,27 +102,24 @@ def size_of_unit(unit: str, target: str) -> float:
         return 0.0
 
 
-def in_si(value: Any, unit: Units, faults: list[Fault], path: tuple[str, ...]) -> Any:
+def in_si(value: Any, unit: Units, *path: str) -> Any:
     """A value with all texts within it that have a unit, such as ``"150 GPa"``, and all quantities
-    of pint and numbers of xarray with a unit, as numbers in the given unit. A unit of another kind
-    is a fault at its `path`."""
+    of pint and numbers of xarray with a unit, as numbers in the given unit; raises `ParameterError`
+    for a unit of another kind, at its `path`."""
     if not unit or type(value) is float:
         return value
-    if type(value) in (dict, list, tuple):
-        parts: Any = value if isinstance(value, dict) else dict(enumerate(value))
-        units = dict.fromkeys(parts, unit) if isinstance(unit, str) else unit
-        found = {x: in_si(parts[x], units.get(x, ""), faults, (*path, str(x))) for x in parts}
-        return found if parts is value else type(value)(found.values())
-    if not isinstance(unit, str):
-        return value
+    if type(value) in (list, tuple):
+        return type(value)(in_si(part, unit, *path, str(i)) for i, part in enumerate(value))
+    if type(value) is dict:
+        units = dict.fromkeys(value, unit) if isinstance(unit, str) else unit
+        return {x: in_si(part, units.get(x, ""), *path, str(x)) for x, part in value.items()}
     text, numbers = _with_unit(value)
-    if not text:
+    if not text or not isinstance(unit, str):
         return value
     try:
         return _all_converted(numbers, text, unit)
     except Exception:  # of pint and of Python's tokenizer, which have no common base
-        faults.append(Fault.of(path, value, _rule_of(unit)))
-        return value
+        raise ParameterError(Fault.of(path, value, _rule_of(unit))) from None
 
 
 def _with_unit(value: Any) -> tuple[str, Any]:
@@ -213,19 +215,16 @@ def must(holds: Callable[[Any], bool], rule: str) -> Callable[[Any], Any]:
     return checked
 
 
-def limits_faults(name: str, value: Any, limits: tuple[float, float]) -> list[str]:
+def limits_faults(name: str, value: Any, limits: tuple[float, float]) -> list[Fault]:
     """Faults of an argument that must be a number within limits."""
     low, high = limits
     good = is_number(value) and low <= value <= high
     return violations((good, name, value, f"must be within {low:g} and {high:g}"))
 
 
-def within(limits: tuple[float, float]) -> AfterValidator:
-    """A validator for pydantic, which refuses numbers outside of limits."""
-    low, high = limits
-    return AfterValidator(
-        must(lambda value: low <= value <= high, f"must be within {low:g} and {high:g}")
-    )
+def between(limits: tuple[float, float]) -> Any:
+    """The rule of numbers within limits."""
+    return Field(ge=limits[0], le=limits[1])
 
 
 Real = Annotated[float, BeforeValidator(number)]
@@ -234,32 +233,16 @@ Positive = Annotated[Real, Field(gt=0, allow_inf_nan=False)]
 Count = Annotated[int, BeforeValidator(whole)]
 Seconds = Annotated[Positive, Unit("s")]
 Speed = Annotated[Positive, Unit("rad/s")]
-Tolerance = Annotated[Real, Unit("s"), within(TOLERANCES)]
-CycleTolerance = Annotated[Real, within(CYCLE_TOLERANCES)]
+Tolerance = Annotated[Real, Unit("s"), between(TOLERANCES)]
+CycleTolerance = Annotated[Real, between(CYCLE_TOLERANCES)]
 
 
 # ---- Base of schemas
 
 
-@functools.cache
-def _marks(model: type[BaseModel]) -> dict[str, Unit]:
-    """Units of the fields of a model, from their schema or from their type."""
-    marks = {}
-    for name, field in model.model_fields.items():
-        parts = [*field.metadata, field.annotation]
-        if isinstance(field.json_schema_extra, dict):
-            parts.append(Unit(str(field.json_schema_extra.get("unit", ""))))
-        for part in parts:
-            parts += get_args(part)
-        found = [part for part in parts if isinstance(part, Unit)]
-        if found:
-            marks[name] = found[0]
-    return marks
-
-
 class Strict(BaseModel):
-    """Base of all models of input: immutable, no unknown keys, numbers converted to SI. Its
-    `ParameterError` lists all faults, those of parts too."""
+    """Base of all models of input: immutable, no unknown keys. Its `ParameterError` lists all faults,
+    those of parts too."""
 
     # JSON has no infinities: they are texts, which `number` reads
     model_config = ConfigDict(frozen=True, extra="forbid", ser_json_inf_nan="strings")
@@ -274,28 +257,6 @@ class Strict(BaseModel):
             except ValidationError as error:
                 raise ParameterError(*faults_of(error, data, type(self))) from None
 
-    @model_validator(mode="wrap")
-    @classmethod
-    def _in_si(cls, data: Any, handler: Any) -> Any:
-        """Convert numbers with units."""
-        if isinstance(data, dict):
-            rule = "a name must be text"
-            faults = [Fault.of((repr(x),), data[x], rule) for x in data if not isinstance(x, str)]
-            data = in_si(data, cls._units(data), faults, ())
-            raise_faults(faults)
-        return handler(data)
-
-    @classmethod
-    def _units(cls, data: Mapping[str, Any]) -> dict[str, Units]:
-        """SI units of the values that have one, by the marks of their types."""
-        units: dict[str, Units] = {}
-        for name, mark in _marks(cls).items():
-            units[name] = mark.name
-            if mark.of:
-                parameter = data.get(mark.of, cls.model_fields[mark.of].default)
-                units[name] = UNITS.get(str(parameter), "")
-        return units
-
     @classmethod
     def model_validate(cls, obj: Any, **kwargs: Any) -> Self:
         """The model from a mapping."""
@@ -303,15 +264,6 @@ class Strict(BaseModel):
             return super().model_validate(dict(obj) if isinstance(obj, Mapping) else obj, **kwargs)
         except ValidationError as error:
             raise ParameterError(*faults_of(error, obj, cls)) from None
-
-    @classmethod
-    def model_validate_json(cls, json_data: str | bytes | bytearray, **kwargs: Any) -> Self:
-        """The model from the JSON that `model_dump_json` writes."""
-        try:
-            values = json.loads(json_data)
-        except (ValueError, RecursionError) as error:
-            raise ParameterError(f"is no JSON: {error}") from None
-        return cls.model_validate(values, **kwargs)
 
     def replace(self, **changes: Any) -> Self:
         """A validated copy with some values changed."""
@@ -330,7 +282,14 @@ def arguments_of(function: Callable[..., Any], base: type[Strict] = Strict) -> t
     fields: dict[str, Any] = {}
     for each in [*inspect.signature(function).parameters.values()][1:]:
         fields[each.name] = (hints[each.name], ... if each.default is each.empty else each.default)
-    return create_model(function.__name__, __base__=base, **fields)
+    # what is in the unit of a parameter comes after the name of that
+    order = sorted(fields, key=lambda name: _is_of_another(hints[name]))
+    return create_model(function.__name__, __base__=base, **{name: fields[name] for name in order})
+
+
+def _is_of_another(hint: Any) -> bool:
+    """Whether another field names the parameter whose unit numbers of a type have."""
+    return any(isinstance(mark, Unit) and mark.of for mark in getattr(hint, "__metadata__", ()))
 
 
 def checked(function: Callable[P, T]) -> Callable[P, T]:

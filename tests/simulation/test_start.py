@@ -41,7 +41,7 @@ def test_a_start_is_a_state() -> None:
         ({"prerun": {"parameters": {"Omga": 3}, "time": 1}}, "prerun.parameters.Omga=3"),
         ({"prerun": {"parameters": {"n_diameters": 2}, "time": 1}}, "prerun.parameters.n_diam"),
         ({"prerun": {"parameters": {"mu_k": 0.9}, "time": 1}}, "mu_k=0.9"),
-        ({"tol": 0}, "tol=0: must be within"),
+        ({"tol": 0}, "tol=0: must be >= 1e-15"),
     ],
 )
 def test_a_wrong_start_is_named_as_an_argument(given: Any, fault: str) -> None:

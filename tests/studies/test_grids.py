@@ -3,7 +3,6 @@
 import json
 import math
 from itertools import chain
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -27,7 +26,7 @@ STUDY: dict[str, Any] = {
 
 
 def study_of(**changes: Any) -> Study:
-    return parse_study({**STUDY, **changes}, Path())
+    return parse_study({**STUDY, **changes})
 
 
 @pytest.mark.parametrize(

@@ -8,11 +8,12 @@ from typing import Any, TypeVar
 
 import pandas as pd
 import xarray as xr
+from xarray import Dataset
 
 from disc_model.data.variables import flag_names
 from disc_model.errors import require
 
-Data = TypeVar("Data", xr.DataArray, xr.Dataset, xr.DataTree)
+Data = TypeVar("Data", xr.DataArray, Dataset, xr.DataTree)
 
 CODED = "flag_meanings"
 """Attribute of a variable of numbers that stand for words: these words."""
@@ -50,7 +51,7 @@ def words(data: Data) -> Data:
     """
     if isinstance(data, xr.DataTree):
         return data.map_over_datasets(words)
-    if isinstance(data, xr.Dataset):
+    if isinstance(data, Dataset):
         return data.assign({name: words(x) for name, x in data.items() if CODED in x.attrs})
     rule = "must be a DataArray, Dataset or DataTree of xarray; tables such as events have words already"
     require((isinstance(data, xr.DataArray), "data", data, rule))
@@ -64,7 +65,7 @@ def words(data: Data) -> Data:
 # ---- Tables of text
 
 
-def table_of(data: xr.Dataset) -> pd.DataFrame:
+def table_of(data: Dataset) -> pd.DataFrame:
     """A dataset as one table: a row for each point of all its dimensions, words in place of numbers that
     stand for them, and units in the heads, such as "P (N)"."""
     points = words(data)

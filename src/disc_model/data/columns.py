@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
+from xarray import Dataset
 
 from disc_model.data.dataset import CONVENTIONS
 from disc_model.data.described import known_of
@@ -19,6 +20,7 @@ from disc_model.data.variables import (
     SCALARS,
     SERIES,
     STATUSES,
+    Entries,
     Variable,
     attributes,
     message_of,
@@ -28,23 +30,21 @@ from disc_model.errors import DiscModelError, Fault, ParameterError
 from disc_model.parameters import PLATE, RESIDUAL, SURFACE, Parameters
 
 
-def series_dataset(columns: Mapping[str, Any], along: str) -> xr.Dataset:
+def series_dataset(columns: Entries, along: str) -> Dataset:
     """Dataset of columns of numbers: samples along `time`, or events along `event`, as two may have
     the same time."""
-    data: dict[str, Any] = {}
+    data: Entries = {}
     for name, column in columns.items():
         kind: type = SERIES[name].dtype if name in SERIES else float
         data[name] = (along, np.asarray(column, kind), attributes(name))
-    return xr.Dataset(data).set_coords("time")
+    return Dataset(data).set_coords("time")
 
 
-def scalars_dataset(
-    p: Parameters, values: Mapping[str, Any], status: str, message: str
-) -> xr.Dataset:
+def scalars_dataset(p: Parameters, values: Entries, status: str, message: str) -> Dataset:
     """The root of a case: its scalars, `SCALARS`, of which most values are missing if it failed,
     and the parameters."""
     known = {"status": STATUSES.index(status), **values}
-    data: dict[str, Any] = {
+    data: Entries = {
         name: ((), variable.dtype(known.get(name, variable.unknown)), variable.attributes)
         for name, variable in SCALARS.items()
     }
@@ -59,13 +59,13 @@ def scalars_dataset(
         "status": status,
         "message": message,
     }
-    return xr.Dataset(data, attrs=attrs)
+    return Dataset(data, attrs=attrs)
 
 
-def _parameter_values(p: Parameters) -> dict[str, Any]:
+def _parameter_values(p: Parameters) -> Entries:
     """The parameters by name: numbers in place of words where these stand for one, and nan for what
     has no value, or does not count beside another one."""
-    values: dict[str, Any] = dict(p)
+    values: Entries = dict(p)
     if p.contact_compliance == RESIDUAL:
         # nan if no modes are left out for it, which has made the case fail
         values["contact_compliance"] = math.nan
@@ -96,7 +96,7 @@ OF_A_CYCLE = ("releases", "backward_releases", "reversals", "separations", "stic
 """Variables that have no value without a cycle, though the result of `floquet` has a count or a verdict."""
 
 
-def result_dataset(result: Any, function: str = "") -> xr.Dataset:
+def result_dataset(result: Any, function: str = "") -> Dataset:
     """What any function has returned as a dataset with a status and a message: numbers, words and
     one-dimensional arrays by name; raises `ParameterError` for anything else.
 
@@ -106,7 +106,7 @@ def result_dataset(result: Any, function: str = "") -> xr.Dataset:
     function : its name, if it is one of this package
     """
     kind = type(result).__name__ if is_dataclass(result) else function
-    if isinstance(result, xr.Dataset):
+    if isinstance(result, Dataset):
         data = result
     elif hasattr(result, "to_dataset"):
         data = result.to_dataset()
@@ -118,10 +118,10 @@ def result_dataset(result: Any, function: str = "") -> xr.Dataset:
         rule = "must return a number, a mapping of numbers, words and arrays of one dimension, or a dataset"
         raise ParameterError(Fault(("function",), function, rule))
     words = {"status": str(getattr(result, "status", "ok")), "message": message_of(result)}
-    return with_real_parts(xr.Dataset({**words, **data.data_vars}, data.coords))
+    return with_real_parts(Dataset({**words, **data.data_vars}, data.coords))
 
 
-def _dataset_of_values(values: Mapping[Any, Any], kind: str) -> xr.Dataset:
+def _dataset_of_values(values: Mapping[Any, Any], kind: str) -> Dataset:
     """Numbers, words and one-dimensional arrays by name, with what the table says of them."""
     known = known_of(kind)
     variables = {}
@@ -131,13 +131,13 @@ def _dataset_of_values(values: Mapping[Any, Any], kind: str) -> xr.Dataset:
             said = known.get(name, Variable(units=""))
             attrs = {} if said.flags else said.texts()
             variables[name] = ((f"{name}_index",)[: array.ndim], array, attrs)
-    return xr.Dataset(variables)
+    return Dataset(variables)
 
 
-def _values_of(result: Any) -> Mapping[str, Any]:
+def _values_of(result: Any) -> Entries:
     """The values of a result by name; nan where a result of `floquet` has no cycle."""
     if isinstance(result, Mapping):
-        return result
+        return dict(result)
     if hasattr(result, "scalars"):
         return dict(result.scalars())
     if not is_dataclass(result):
@@ -150,7 +150,7 @@ def _values_of(result: Any) -> Mapping[str, Any]:
     return {**values, "message": message_of(result)}
 
 
-def with_real_parts(data: xr.Dataset) -> xr.Dataset:
+def with_real_parts(data: Dataset) -> Dataset:
     """A dataset with the real and the imaginary part of each complex variable x in its place, x_real and
     x_imag: files have no complex numbers."""
     parts: dict[str, xr.DataArray] = {}
@@ -160,7 +160,7 @@ def with_real_parts(data: xr.Dataset) -> xr.Dataset:
     return data.drop_vars({x.name for x in parts.values()}).assign(parts)
 
 
-def with_complex_values(data: xr.Dataset) -> xr.Dataset:
+def with_complex_values(data: Dataset) -> Dataset:
     """A dataset with complex variables in place of the parts that `with_real_parts` has made of them."""
     whole = {}
     for real in map(str, data.data_vars):

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import xarray as xr
+from xarray import Dataset
 
 from disc_model.data.coded import table_of
 from disc_model.data.files import (
@@ -20,7 +21,7 @@ from disc_model.data.files import (
     unreadable,
     write_atomically,
 )
-from disc_model.data.variables import STATUSES
+from disc_model.data.variables import STATUSES, Entries
 from disc_model.errors import Fault, ParameterError, require
 
 __all__ = ["MissingFile", "UnreadableFile", "WriteError", "load", "save"]
@@ -70,7 +71,7 @@ def save(data: Any, path: str | Path) -> None:
     given = _as_dataset(data)
     write = partial(_write, given)
     if file.suffix == ".csv":
-        is_one = isinstance(given, xr.Dataset)
+        is_one = isinstance(given, Dataset)
         require((is_one, "data", "a tree", "must be one group to be a table"))
         write = partial(table_of(given).to_csv, index=False)
     write_atomically(file, write)
@@ -79,7 +80,7 @@ def save(data: Any, path: str | Path) -> None:
 def _as_dataset(data: Any) -> Any:
     """A dataset or tree as it is, and an array or a result as its dataset; raises `ParameterError`."""
     rule = "must be an xarray.Dataset or xarray.DataTree"
-    if isinstance(data, xr.Dataset | xr.DataTree):
+    if isinstance(data, Dataset | xr.DataTree):
         return data
     require((hasattr(data, "to_dataset"), "data", data, rule))
     try:
@@ -88,9 +89,9 @@ def _as_dataset(data: Any) -> Any:
         raise ParameterError(Fault(("data",), "", str(error))) from None
 
 
-def _write(data: xr.Dataset | xr.DataTree, name: str) -> None:
+def _write(data: Dataset | xr.DataTree, name: str) -> None:
     """Write a dataset or a tree as netCDF; raises `ParameterError` for what a file cannot hold."""
-    encoding: dict[str, Any]
+    encoding: Entries
     if isinstance(data, xr.DataTree):
         encoding = {node.path: _encoding(node.to_dataset(inherit=False)) for node in data.subtree}
     else:
@@ -102,13 +103,13 @@ def _write(data: xr.Dataset | xr.DataTree, name: str) -> None:
         raise ParameterError(Fault(("data",), "", rule)) from None
 
 
-def _encoding(group: xr.Dataset) -> dict[str, Any]:
+def _encoding(group: Dataset) -> Entries:
     """How variables are written: arrays compressed, with the checksums of HDF5 (fletcher32), which every
     reader compares."""
     arrays = {"fletcher32": True, "zlib": True, "complevel": 1, "shuffle": True}
     encoding = {}
     for name, variable in group.variables.items():
-        own: dict[str, Any] = {"_FillValue": None}
+        own: Entries = {"_FillValue": None}
         if variable.dtype.kind in "UO":
             own = {"dtype": "S1"}
         elif variable.ndim and variable.size:
@@ -120,7 +121,7 @@ def _encoding(group: xr.Dataset) -> dict[str, Any]:
 # ---- Reading
 
 
-def load(path: str | Path) -> xr.Dataset | xr.DataTree:
+def load(path: str | Path) -> Dataset | xr.DataTree:
     """Read a dataset of a study, or a file of `disc_model.save` or `Result.save`, into memory.
 
     Parameters
@@ -167,7 +168,7 @@ def load_tree(path: str | Path, *, lazy: bool = False) -> xr.DataTree:
         raise unreadable(file, getattr(error, "strerror", None) or error) from error
 
 
-def _with_words(group: xr.Dataset) -> xr.Dataset:
+def _with_words(group: Dataset) -> Dataset:
     """A group whose words are text of numpy's own."""
     words = {name: x.astype(str) for name, x in group.variables.items() if x.dtype.kind == "O"}
     return group.assign(words)
@@ -186,7 +187,7 @@ class Missing(Exception):
     begins "the case"."""
 
 
-def group(case: xr.DataTree, name: str) -> xr.Dataset:
+def group(case: xr.DataTree, name: str) -> Dataset:
     """A window, the Poincare section ``poincare`` or ``events``, as recorded."""
     if name in case.children:
         return case.children[name].to_dataset(inherit=False)
@@ -195,7 +196,7 @@ def group(case: xr.DataTree, name: str) -> xr.Dataset:
     raise Missing(f"did not record {name}")
 
 
-def events(case: xr.DataTree) -> xr.Dataset:
+def events(case: xr.DataTree) -> Dataset:
     """Events within the span ``kept_from`` to ``kept_until``."""
     table = group(case, "events")
     if "kept_from" not in table.attrs:
@@ -203,9 +204,7 @@ def events(case: xr.DataTree) -> xr.Dataset:
     return table
 
 
-def samples(
-    case: xr.DataTree, name: str, at_least: int = 2, *, envelope: bool = False
-) -> xr.Dataset:
+def samples(case: xr.DataTree, name: str, at_least: int = 2, *, envelope: bool = False) -> Dataset:
     """A window of at least `at_least` samples; or bins of an `envelope`, each variable as ``_min``
     and ``_max``."""
     window = group(case, name)

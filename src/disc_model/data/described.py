@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import Any
 
-import xarray as xr
+from xarray import Dataset
 
 from disc_model.data.variables import COMMON, OF_QUANTITIES, OF_RESULTS, TEXTS, Variable
 
@@ -18,8 +18,8 @@ def known_of(kind: str) -> Mapping[str, Variable]:
 
 
 def described(
-    data: xr.Dataset, kind: str, options: Mapping[str, Any] = MappingProxyType({})
-) -> xr.Dataset:
+    data: Dataset, kind: str, options: Mapping[str, Any] = MappingProxyType({})
+) -> Dataset:
     """A dataset of a quantity, or of a class of results, whose variables say what they are.
 
     data : what the table does not know of it stays as it is

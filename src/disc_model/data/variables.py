@@ -83,6 +83,8 @@ def with_advice(found: str, status: StatusBase) -> str:
     return f"{found}. {status.advice}"
 
 
+Entries = dict[str, Any]
+"""Attributes or values, by name."""
 TEXTS = ("units", "long_name", "comment", "missing", "parameter")
 """Attributes that say what a variable is."""
 
@@ -100,19 +102,19 @@ class Variable(NamedTuple):
     parameter: str = ""  # the number of the case whose values they are, or the option that names it
 
     @property
-    def attributes(self) -> dict[str, Any]:
+    def attributes(self) -> Entries:
         """The variable's CF attributes: its `codes`, and the `texts` that it has without options."""
         return {**self.texts(), **self.codes}
 
     @property
-    def codes(self) -> dict[str, Any]:
+    def codes(self) -> Entries:
         """Attributes of a flag: the words that its values stand for."""
         if not self.flags:
             return {}
         numbers = np.arange(len(self.flags), dtype=np.int8)
         return {"flag_values": numbers, "flag_meanings": " ".join(self.flags)}
 
-    def texts(self, options: Mapping[str, Any] = MappingProxyType({})) -> dict[str, Any]:
+    def texts(self, options: Mapping[Any, Any] = MappingProxyType({})) -> Entries:
         """Attributes that say what it is: `units`, `long_name`, `comment`, `missing` and `parameter`,
         without those that are "".
 
@@ -154,7 +156,7 @@ _COMMON = {**_TABLES["modal"], **_TABLES["series"], **_TABLES["scalars"], **_TAB
 """What entries have that they do not state themselves."""
 
 
-def _variables(table: Mapping[str, Any]) -> dict[str, Variable]:
+def _variables(table: Entries) -> dict[str, Variable]:
     """The variables of a part of the table, by name."""
     variables = {}
     for name, stated in table.items():
@@ -209,7 +211,7 @@ _CF_UNITS = {
 """Units of parameters as files have them."""
 
 
-def attributes(name: str) -> dict[str, Any]:
+def attributes(name: str) -> Entries:
     """CF attributes of a variable of a run, a parameter or a number of one of a disc's modes: units, long
     name, comment and, for a flag, the meanings of its values."""
     if column_of(name):
@@ -231,7 +233,7 @@ def attributes(name: str) -> dict[str, Any]:
     return Variable(_CF_UNITS.get(unit, unit), text, choices, comment=comment).attributes
 
 
-def _attributes_of_mode(name: str) -> dict[str, Any]:
+def _attributes_of_mode(name: str) -> Entries:
     """CF attributes of a number of one of a disc's modes, such as omega_2_0."""
     column, diameters, circles = name.rsplit("_", 2)
     number = _OF_A_MODE[column]
@@ -252,7 +254,7 @@ def flag_names(variable: Any) -> np.ndarray:
     return np.asarray(known[np.where(np.isnan(values), -1, values).astype(int)])
 
 
-def stated_in(study: Any, what: str) -> dict[str, Any]:
+def stated_in(study: Any, what: str) -> Entries:
     """What the dataset of a grid study or of a sweep states, such as its "base" or "options"; empty
     without."""
     return json.loads(study.attrs.get(what, "{}"))
@@ -320,7 +322,7 @@ def message_of(result: Any) -> str:
 
 
 def values_text(
-    values: Mapping[str, Any], units: Mapping[str, tuple[str, float]] = MappingProxyType({})
+    values: Entries, units: Mapping[str, tuple[str, float]] = MappingProxyType({})
 ) -> str:
     """N, Omega and all values that differ from Table 1, in units of `SHOWN` or in `units`, with
     factors from SI; of a disc that is given by its modes their number and frequencies."""

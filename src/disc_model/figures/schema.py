@@ -10,7 +10,7 @@ from typing import Annotated, Any, ClassVar, Literal, NamedTuple, cast, get_type
 
 from pydantic import AfterValidator, BeforeValidator, Field, create_model
 
-from disc_model.errors import Fault, as_text, raise_faults, suggestion, violations
+from disc_model.errors import as_text, require, suggestion, violations
 from disc_model.figures.looks import Options
 from disc_model.figures.shown import key_of, si_unit
 from disc_model.simulation.case import Window
@@ -120,13 +120,10 @@ Either = Annotated[
 
 def known_units(units: dict[str, str]) -> dict[str, str]:
     """The units, if each is one of its parameter or variable; raises `ParameterError`."""
-    faults: list[Fault] = []
     for name, unit in units.items():
-        if si_unit(name) in ("", "1"):
-            faults.append(Fault.of((name,), unit, "no parameter or variable with a unit"))
-        else:
-            in_si(f"1 {unit}", si_unit(name), faults, (name,))
-    raise_faults(faults)
+        none = "no parameter or variable with a unit"
+        require((si_unit(name) not in ("", "1"), name, unit, none))
+        in_si(f"1 {unit}", si_unit(name), name)
     return units
 
 

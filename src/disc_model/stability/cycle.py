@@ -16,7 +16,7 @@ import numpy as np
 from disc_model.arrays import Array, ComplexArray, EqualByValue
 from disc_model.data.variables import GIVE_A_GUESS, CycleStatus, values_text, with_advice
 from disc_model.display import Summarised, counted, drawings, number_text
-from disc_model.errors import DiscModelError, violations
+from disc_model.errors import DiscModelError, Fault, violations
 from disc_model.parameters import Parameters
 from disc_model.simulation.states import State
 from disc_model.stability.return_map import ENDS, Orbit, ReturnMap, newton
@@ -167,7 +167,7 @@ class FloquetResult(Summarised, EqualByValue):
         return drawings().multipliers(ax, self.raise_for_status(), **look)
 
 
-def guess_faults(guess: object, releases: object, kind: object) -> list[str]:
+def guess_faults(guess: object, releases: object, kind: object) -> list[Fault]:
     """Faults of a guess for the search for a cycle, of the number of its releases, and of its
     kind."""
     near_state = isinstance(guess, State) and kind != SLIPPING

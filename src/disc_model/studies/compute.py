@@ -9,17 +9,19 @@ from types import MappingProxyType
 from typing import Any
 
 import numpy as np
-import pandas as pd
 import xarray as xr
+from xarray import Dataset
 
 from disc_model.data.variables import PERTURBATIONS, TRUTH, Variable, attributes
 from disc_model.display import progress_bar
 from disc_model.modal_disc import column_of
 from disc_model.parameters import Parameters
-from disc_model.studies.grid import WORDS
-from disc_model.studies.quantity import NUMERICAL, failed
+from disc_model.studies.grid import WORDS, Dims
+from disc_model.studies.quantity import NUMERICAL, Row, failed
 
-Point = Mapping[str, Any]
+Map = Callable[..., Iterable[Any]]
+"""A function such as Python's own `map`."""
+Point = Row
 """What varies, by name: numbers and words of the case, perturbations, and arguments of the function."""
 
 
@@ -35,20 +37,25 @@ class Call:
     quantity : its name, if it is one and gives codes for words
     """
 
-    function: Callable[..., xr.Dataset]
+    function: Callable[..., Dataset]
     make: Callable[..., Parameters]
-    options: Mapping[str, Any]
+    options: Row
     quantity: str = ""
 
-    def __call__(self, point: Point) -> xr.Dataset:
+    def __call__(self, point: Point) -> Dataset:
         """What the function returns at a point; status and message alone where it fails."""
-        own = {name: value for name, value in point.items() if is_of_case(name)}
-        kicks = {name: value for name, value in point.items() if name in PERTURBATIONS}
-        others = {name: x for name, x in point.items() if name not in own and name not in kicks}
-        options = {**self.options, **others}
+        own = {}
+        kicks = {}
+        options = dict(self.options)
+        for name, value in point.items():
+            if is_of_case(name):
+                own[name] = value
+            elif name in PERTURBATIONS:
+                kicks[name.removeprefix("perturbation_")] = value
+            else:
+                options[name] = value
         if kicks:
-            added = {name.removeprefix("perturbation_"): value for name, value in kicks.items()}
-            options["start"] = options["start"].replace(**added)
+            options["start"] = options["start"].replace(**kicks)
         try:
             return self.function(self.make(**own), **options)
         except NUMERICAL as error:
@@ -61,13 +68,13 @@ def is_of_case(name: str) -> bool:
 
 
 def compute(
-    call: Callable[[Point], xr.Dataset],
+    call: Callable[[Point], Dataset],
     points: Sequence[Point],
     *,
-    map: Callable[..., Iterable[xr.Dataset]] = map,
+    map: Map = map,
     title: str = "",
     progress: bool = False,
-) -> list[xr.Dataset]:
+) -> list[Dataset]:
     """The results at points; `map` may be that of an executor."""
     results = []
     with progress_bar(title, len(points), progress) as bar:
@@ -81,10 +88,8 @@ def compute(
 
 
 def stack(
-    results: Sequence[xr.Dataset],
-    dims: Mapping[str, pd.DataFrame],
-    columns: Mapping[str, Variable] = MappingProxyType({}),
-) -> xr.Dataset:
+    results: Sequence[Dataset], dims: Dims, columns: Mapping[str, Variable] = MappingProxyType({})
+) -> Dataset:
     """Results along the dimensions of a grid.
 
     Parameters
@@ -109,14 +114,15 @@ def stack(
         for i, each in present.items():
             cells: Any = (i, *map(slice, each.shape))
             array[cells] = each.values
-        is_truth = first.dtype.kind == "b" and array.dtype.kind == "f"
-        attrs = first.attrs | (TRUTH if is_truth else {})
+        attrs = dict(first.attrs)
+        if first.dtype.kind == "b" and array.dtype.kind == "f":
+            attrs |= TRUTH
         stacked = array.reshape((*map(len, dims.values()), *shape))
         variables[name] = xr.Variable((*dims, *first.dims), stacked, attrs)
-    return xr.Dataset(variables, coords).assign_coords(_varied(dims))
+    return Dataset(variables, coords).assign_coords(_varied(dims))
 
 
-def _varied(dims: Mapping[str, pd.DataFrame]) -> dict[str, Any]:
+def _varied(dims: Dims) -> dict[str, Any]:
     """What varies as coordinates, whose words have no unit; discs and other objects are words too."""
     coordinates = {}
     for dim, frame in dims.items():
@@ -124,7 +130,9 @@ def _varied(dims: Mapping[str, pd.DataFrame]) -> dict[str, Any]:
             values = ["plate" if value is None else value for value in frame[name]]
             if not all(isinstance(value, int | float | str) for value in values):
                 values = [*map(str, values)]
-            attrs = attributes(name) if is_of_case(name) or name in PERTURBATIONS else {}
+            attrs = {}
+            if is_of_case(name) or name in PERTURBATIONS:
+                attrs = attributes(name)
             if name in WORDS:
                 attrs = {"long_name": attrs["long_name"]}
             coordinates[name] = (dim, values, attrs)
@@ -132,7 +140,7 @@ def _varied(dims: Mapping[str, pd.DataFrame]) -> dict[str, Any]:
 
 
 def _common_coordinates(
-    results: Sequence[xr.Dataset],
+    results: Sequence[Dataset],
 ) -> tuple[dict[Any, xr.Variable], list[dict[Any, xr.Variable]]]:
     """Coordinates along dimensions of the results' own, and the variables of each. A coordinate that
     differs between points is a variable along a dimension without one."""
@@ -148,8 +156,9 @@ def _common_coordinates(
     rows = []
     for result in results:
         dims = {name: dim for name, dim in differing.items() if name in result.dims}
-        every = result.rename_dims(dims).variables if dims else result.variables
-        rows.append({name: x for name, x in every.items() if name not in coords})
+        if dims:
+            result = result.rename_dims(dims)
+        rows.append({name: x for name, x in result.variables.items() if name not in coords})
     return coords, rows
 
 
@@ -158,4 +167,6 @@ def _empty(dtypes: Sequence[Any], shape: Sequence[int], whole: bool) -> np.ndarr
     dtype = np.result_type(*dtypes)
     if dtype.kind in "UO":
         return np.full(shape, "", dtype)
-    return np.empty(shape, dtype) if whole else np.full(shape, np.nan)
+    if whole:
+        return np.empty(shape, dtype)
+    return np.full(shape, np.nan)

@@ -13,13 +13,15 @@ from pydantic import BeforeValidator, Field, create_model
 from disc_model.data.variables import CHOICES, PERTURBATIONS
 from disc_model.errors import Fault, ParameterError
 from disc_model.parameters import NUMBER_OR_WORD, Parameters
-from disc_model.studies.quantity import Range, listed_values
-from disc_model.units import Finite, Strict
+from disc_model.studies.quantity import Range, Row, listed_values
+from disc_model.units import Finite, Strict, Unit
 
 VARIED = (*Parameters.model_fields, *PERTURBATIONS)  # what a grid may vary, in this order
 WORDS = (*CHOICES, "disc")  # what varies by words
 Points = list[dict[Any, Any]]
 """What varies at each point, by name."""
+Dims = Mapping[str, pd.DataFrame]
+"""What varies along each dimension, in columns, by its name."""
 
 
 # ---- Axes
@@ -37,14 +39,16 @@ def _axis(name: str) -> Any:
         text = PERTURBATIONS[name].long_name
     else:
         field = Parameters.model_fields[name]
-        kind = str if name == "disc" else Annotated[field.annotation, name, *field.metadata]
         text = str(field.description)
+        kind = Annotated[field.annotation, name, *field.metadata]
+        if name == "disc":
+            kind = str
     listed = BeforeValidator(listed_values, json_schema_input_type=list[kind | Range] | Range)
-    values = Annotated[tuple[kind, ...], listed, Field(min_length=1)]
+    values = Annotated[tuple[kind, ...], listed, Field(min_length=1), Unit(unit)]
     return values, Field(None, description=text, json_schema_extra={"unit": unit})
 
 
-_axes: dict[str, Any] = {name: _axis(name) for name in VARIED}
+_axes: Row = {name: _axis(name) for name in VARIED}
 Columns: Any = create_model("Columns", __base__=_Columns, **_axes)
 """An axis for each of several names of `VARIED`."""
 
@@ -69,17 +73,18 @@ def _columns_of(group: Any) -> dict[str, Sequence[Any]]:
     columns = {}
     for name in sorted(group.model_fields_set, key=VARIED.index):
         values = getattr(group, name)
-        mixed = name in NUMBER_OR_WORD and any(isinstance(value, str) for value in values)
-        columns[name] = [*map(str, values)] if mixed else values
+        if name in NUMBER_OR_WORD and any(isinstance(value, str) for value in values):
+            values = [*map(str, values)]
+        columns[name] = values
     return columns
 
 
-def expand(dims: Mapping[str, pd.DataFrame]) -> pd.DataFrame:
+def expand(dims: Dims) -> pd.DataFrame:
     """All points of a grid, a row each, from the columns along each dimension; the last one varies first."""
     return reduce(lambda above, below: above.merge(below, how="cross"), dims.values())
 
 
-def keeps(points: pd.DataFrame, rules: Sequence[str], beside: Mapping[str, Any]) -> list[bool]:
+def keeps(points: pd.DataFrame, rules: Sequence[str], beside: Row) -> list[bool]:
     """Which points keep all rules, such as ``mu_k <= mu_s`` (`pandas.DataFrame.eval`), of what varies and
     of values beside it that do not; raises `ParameterError`."""
     constant = {name: x for name, x in beside.items() if name not in points}
@@ -103,7 +108,7 @@ def thinned(frame: pd.DataFrame, most: int) -> pd.DataFrame:
     return frame.iloc[places].reset_index(drop=True)
 
 
-def case_of(base: Mapping[str, Any], discs: Mapping[str, Any], **own: Any) -> Parameters:
+def case_of(base: Row, discs: Row, **own: Any) -> Parameters:
     """A case from the values that do not vary, and from those of a point, discs by the words that stand for
     them; raises `ParameterError`."""
     if "disc" in own:

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, NamedTuple,
 import numpy as np
 import xarray as xr
 from pydantic import AfterValidator, BeforeValidator, Field, model_validator
+from xarray import Dataset
 
 from disc_model.data.coded import words
 from disc_model.data.described import described
@@ -23,14 +24,15 @@ from disc_model.errors import DiscModelError, Fault, ParameterError, raise_fault
 from disc_model.modal_disc import column_of
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.simulation.case import Start
-from disc_model.units import Count, Finite, Positive, Strict, arguments_of, must
+from disc_model.units import Count, Finite, Positive, Strict, Unit, arguments_of, must
 
 if TYPE_CHECKING:
     from disc_model.simulation.states import State
 
-Function = Callable[..., xr.Dataset]
+Function = Callable[..., Dataset]
 F = TypeVar("F", bound=Function)
-Row = Mapping[str, Any]
+Row = dict[str, Any]
+"""Values of variables, by name."""
 Rules = tuple[tuple[Callable[[Any], Any], str], ...]
 NUMERICAL = (DiscModelError, ArithmeticError, np.linalg.LinAlgError)
 """Errors that make a point fail."""
@@ -90,12 +92,14 @@ class Range(Ruled):
     @property
     def steps(self) -> float:
         """The number of intervals, which rounding may have changed."""
-        return (self.stop - self.start) / self.step if self.step else (self.count or 2) - 1
+        if self.step:
+            return (self.stop - self.start) / self.step
+        return (self.count or 2) - 1
 
     @property
     def values(self) -> list[float]:
         """All values, those inside rounded to 12 digits, so that ranges and lists agree on 0.3."""
-        spaced = np.linspace if self.scale == "linear" else np.geomspace
+        spaced: Any = {"linear": np.linspace, "log": np.geomspace}[self.scale]
         inside = spaced(self.start, self.stop, round(self.steps) + 1)[1:-1]
         return [self.start, *(float(f"{value:.12g}") for value in inside), self.stop]
 
@@ -105,18 +109,27 @@ def values_between(bounds: tuple[float, float], step: float) -> list[float]:
     return Range(start=bounds[0], stop=bounds[1], step=step).values
 
 
+Speeds = Annotated[tuple[Finite, Finite], Unit("rad/s")]
+"""A lowest and a highest speed."""
+Bounds = Annotated[tuple[Finite, Finite], Unit(of="name")]
+"""The least and the greatest value of the number that the option `name` names."""
+Step = Annotated[Positive, Unit(of="name")]
 BETWEEN: Rules = ((lambda o: values_between(o.bounds, o.step), ""),)
 """The rule of the options `bounds` and `step`."""
 
 
 def listed_values(given: Any) -> Any:
     """A list of values, in which ranges are replaced by theirs."""
-    parts = [given] if isinstance(given, Mapping | int | float | str) else given
-    if not isinstance(parts, list | tuple | np.ndarray):
+    if isinstance(given, Mapping | int | float | str):
+        given = [given]
+    if not isinstance(given, list | tuple | np.ndarray):
         return given
     values: list[Any] = []
-    for part in parts:
-        values += Range.model_validate(part).values if isinstance(part, Mapping) else [part]
+    for part in given:
+        if isinstance(part, Mapping):
+            values += Range.model_validate(part).values
+        else:
+            values.append(part)
     return values
 
 
@@ -129,6 +142,21 @@ Values = Annotated[
 
 
 STATIC = Start()
+RETURNED = """\
+    Returns
+    -------
+    xarray.Dataset
+        The variables of a study of this quantity, with words as words; attributes are the case (`parameters`), the
+        `options`, and in `message` what went wrong or is missing
+
+"""
+RAISED = """\
+    Raises
+    ------
+    ParameterError
+        If an argument breaks a rule; the message names the argument, its value and the rule.
+
+"""
 COME_TO = (
     "What the motion has come to: a while after the first separation, on the cycle it settled to, "
     "or at the horizon."
@@ -202,7 +230,8 @@ def quantity(
     """Mark a function of a case as a quantity: its keywords become options of study files, and calls of it
     check them, by their types and by the rules between them.
 
-    A call returns words; studies call the function itself, for codes.
+    A call returns words; studies call the function itself, for codes. What all of them return, unless they say
+    otherwise, and raise stands in their docstrings.
     """
 
     def mark(function: F) -> F:
@@ -212,7 +241,7 @@ def quantity(
         QUANTITIES[name] = Quantity(name, function, options, points_per_job, tuple(own), motion)
 
         @wraps(function)
-        def checked(case: Parameters, *args: Any, **given: Any) -> xr.Dataset:
+        def checked(case: Parameters, *args: Any, **given: Any) -> Dataset:
             raise_faults(foreign_case(case))
             asked = {**dict(zip(options.model_fields, args, strict=False)), **given}
             chosen = options.model_validate(asked)
@@ -221,11 +250,16 @@ def quantity(
             if not found["message"].dims:
                 said["message"] = found["message"].item()
                 found = found.drop_vars("message")
-            several = [dim for dim in found.dims if dim in options.model_fields]
-            scalars = [dim for dim in several if np.ndim(asked.get(str(dim), 0)) == 0]
+            fields = options.model_fields.keys()
+            scalars = [
+                dim for dim in found.dims if dim in fields and np.ndim(asked.get(str(dim), 0)) == 0
+            ]
             found = found.squeeze(scalars, drop=True).assign_attrs(said)
             return words(described(found, name, dict(chosen)))
 
+        text, examples, rest = str(function.__doc__).partition("    Examples\n")
+        returned = RETURNED * ("    Returns\n" not in text)
+        checked.__doc__ = "".join([text, returned, RAISED, examples, rest])
         function.__qualname__ += ".__wrapped__"  # by which pickle finds it
         return cast(F, checked)
 
@@ -235,22 +269,22 @@ def quantity(
 # ---- What a function has found, as a dataset
 
 
-def failed(name: str, error: Exception) -> xr.Dataset:
+def failed(name: str, error: Exception) -> Dataset:
     """The dataset of a point of a quantity that an error has ended; of another function status and message
     alone, in words."""
     from disc_model.simulation.result import STATUS_OF
 
-    message = f"{type(error).__name__}: {error}"
     if not name:
-        return xr.Dataset({"status": "failed", "message": message})
+        return Dataset({"status": "failed", "message": told(error)})
     word = dict[Any, Any](STATUS_OF).get(type(error), "failed")
-    known = OF_QUANTITIES[name]["columns"]["status"].flags
-    return found(name, {"status": word if word in known else "failed"}, message)
+    if word not in OF_QUANTITIES[name]["columns"]["status"].flags:
+        word = "failed"
+    return found(name, {"status": word}, told(error))
 
 
 def found(
     name: str, values: Row, message: str | Sequence[str] = "", **own: Iterable[Any]
-) -> xr.Dataset:
+) -> Dataset:
     """A dataset of what a quantity has found at a point.
 
     Parameters
@@ -262,7 +296,7 @@ def found(
     own : values along the dimensions of its own; without them, only variables without dimensions are returned
     """
     coords = {dim: xr.Variable(dim, np.array([*along])) for dim, along in own.items()}
-    variables: dict[str, Any] = {}
+    variables: Row = {}
     lengths: dict[str, int] = {}
     for key, column in OF_QUANTITIES[name]["columns"].items():
         if coords.keys() >= {*column.dims}:
@@ -274,11 +308,18 @@ def found(
         room = coords[dim].size
         if length > room:
             cuts.append(f"{length} were found along {dim}, which has room for {room}")
-    texts = [message] if isinstance(message, str) else message
-    if cuts:
-        texts = ["; ".join(filter(None, [text.removesuffix("."), *cuts])) for text in texts]
-    said = ((), texts[0]) if isinstance(message, str) else (next(iter(coords)), texts)
-    return xr.Dataset({**variables, "message": said}, coords)
+    if isinstance(message, str):
+        variables["message"] = ((), _with_cuts(message, cuts))
+    else:
+        variables["message"] = (next(iter(coords)), [_with_cuts(text, cuts) for text in message])
+    return Dataset(variables, coords)
+
+
+def _with_cuts(message: str, cuts: Sequence[str]) -> str:
+    """A message that also says what was cut."""
+    if not cuts:
+        return message
+    return "; ".join(filter(None, [message.removesuffix("."), *cuts]))
 
 
 def _store(value: Any, cell: np.ndarray, column: Variable, lengths: dict[str, int]) -> None:
@@ -301,6 +342,27 @@ def listed(rows: Sequence[Row]) -> dict[str, list[Any]]:
     return {name: [row.get(name) for row in rows] for name in names}
 
 
-def with_ends(name: str, values: Iterable[Any]) -> dict[str, Any]:
+def attempted(rows: Sequence[Row], fill: Callable[[int, Row], Iterable[str]]) -> list[str]:
+    """Messages of rows that a function fills in, one by one, while it yields remarks; those that end in an
+    error have failed."""
+    messages = []
+    for i, row in enumerate(rows):
+        remarks = []
+        try:
+            for remark in fill(i, row):
+                remarks.append(remark)
+        except NUMERICAL as error:
+            row["status"] = "failed"
+            remarks.append(told(error))
+        messages.append("; ".join(dict.fromkeys(filter(None, remarks))))
+    return messages
+
+
+def told(error: Exception) -> str:
+    """What an error says."""
+    return f"{type(error).__name__}: {error}"
+
+
+def with_ends(name: str, values: Iterable[Any]) -> Row:
     """Three columns by name: a share, and the ends of its confidence interval."""
     return dict(zip((name, f"{name}_low", f"{name}_high"), values, strict=True))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import logging
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import pandas as pd
 import xarray as xr
+from xarray import Dataset
 
 from disc_model.data.coded import table_of
 from disc_model.data.dataset import CONVENTIONS
@@ -20,17 +21,17 @@ from disc_model.data.variables import EXCLUDED, OF_QUANTITIES, Variable
 from disc_model.parameters import Disc
 from disc_model.provenance import git_commit, physics_hash, versions_text
 from disc_model.simulation.named_case import run_case
-from disc_model.studies.compute import Call, compute, stack
+from disc_model.studies.compute import Call, Map, compute, stack
 from disc_model.studies.grid import VARIED, Points, case_of
 from disc_model.studies.motions import history_from
-from disc_model.studies.quantity import found, quantity_of
+from disc_model.studies.quantity import Row, found, quantity_of
 
 if TYPE_CHECKING:
     from disc_model.studies.study import Study
 
 POINT = "point"
 log = logging.getLogger(__name__)
-Layout = Mapping[str, Any]
+Layout = Row
 
 
 # ---- Jobs
@@ -45,7 +46,7 @@ def call_of(layout: Layout) -> Call:
     return Call(quantity.function, make, dict(options), quantity.name)
 
 
-def run_job(job: str, known: Iterable[xr.Dataset] = ()) -> xr.Dataset:
+def run_job(job: str, known: Iterable[Dataset] = ()) -> Dataset:
     """The results of a job along `point`.
 
     Parameters
@@ -63,7 +64,7 @@ def run_job(job: str, known: Iterable[xr.Dataset] = ()) -> xr.Dataset:
     return _along_points(points, rows, quantity_of(layout["quantity"]).columns)
 
 
-def run_motions(job: str) -> xr.Dataset:
+def run_motions(job: str) -> Dataset:
     """Histories along `point` and `sample`, for a text of `Study.motions`."""
     layout = json.loads(job)
     motion = quantity_of(layout["quantity"]).motion
@@ -76,14 +77,14 @@ def run_motions(job: str) -> xr.Dataset:
 
 
 def _along_points(
-    points: Points, rows: Sequence[xr.Dataset], columns: Mapping[str, Variable]
-) -> xr.Dataset:
+    points: Points, rows: Sequence[Dataset], columns: Mapping[str, Variable]
+) -> Dataset:
     """Results in one dataset, with what varies as coordinates along `point`."""
     frame = pd.DataFrame(points)
     return stack(rows, {POINT: frame}, columns).assign_attrs(names=json.dumps([*frame]))
 
 
-def points_of(part: xr.Dataset) -> Iterable[tuple[dict[Any, Any], xr.Dataset]]:
+def points_of(part: Dataset) -> Iterable[tuple[dict[Any, Any], Dataset]]:
     """The points of a job's results, and the result at each."""
     names = json.loads(part.attrs["names"])
     results = part.drop_vars(names)
@@ -92,7 +93,7 @@ def points_of(part: xr.Dataset) -> Iterable[tuple[dict[Any, Any], xr.Dataset]]:
         yield point, results.isel(point=i)
 
 
-def merge(layout: Layout, results: Sequence[xr.Dataset], attrs: Mapping[str, str]) -> xr.Dataset:
+def merge(layout: Layout, results: Sequence[Dataset], attrs: Mapping[str, str]) -> Dataset:
     """The results at all points of a grid over its dimensions, which a variable has in the order of the
     parameters, before its own.
 
@@ -113,16 +114,10 @@ def merge(layout: Layout, results: Sequence[xr.Dataset], attrs: Mapping[str, str
         name = dims[dim].columns[0] if dim in dims else dim
         return VARIED.index(name) if name in VARIED else len(VARIED)
 
-    stated = {
-        name: layout[name]
-        for name in ("options", "base", "discs")
-        if layout[name] or name != "discs"
-    }
-    every = {
-        "Conventions": CONVENTIONS,
-        **attrs,
-        "quantity": quantity.name,
-        **{name: json.dumps(value, sort_keys=True) for name, value in stated.items()},
+    every = {"Conventions": CONVENTIONS, **attrs, "quantity": quantity.name}
+    for name in ("options", "base", "discs"):
+        every[name] = json.dumps(layout[name], sort_keys=True)
+    every |= {
         "git_commit": git_commit(),
         "source_hash": physics_hash(),
         "versions": versions_text(),
@@ -134,7 +129,7 @@ def merge(layout: Layout, results: Sequence[xr.Dataset], attrs: Mapping[str, str
 # ---- Points of which there is something to say
 
 
-def told_points(study: xr.Dataset) -> tuple[pd.DataFrame, pd.DataFrame]:
+def told_points(study: Dataset) -> tuple[pd.DataFrame, pd.DataFrame]:
     """Tables of the points without a result, and of those with a result and a message."""
     points = table_of(study[["status", "message"]])
     known = points["status"].isin(["ok", EXCLUDED])
@@ -145,11 +140,8 @@ def told_points(study: xr.Dataset) -> tuple[pd.DataFrame, pd.DataFrame]:
 
 
 def run_study(
-    source: str | Path | Mapping[str, Any],
-    *,
-    map: Callable[..., Iterable[Any]] = map,
-    progress: bool = False,
-) -> xr.Dataset | xr.DataTree:
+    source: str | Path | Mapping[str, Any], *, map: Map = map, progress: bool = False
+) -> Dataset | xr.DataTree:
     """Compute a study in this process, without files.
 
     Parameters
@@ -188,9 +180,9 @@ def run_study(
     from disc_model.studies.study import load_study, parse_study
 
     folder = Path() if isinstance(source, Mapping) else Path(source).parent
-    study = parse_study(source, folder) if isinstance(source, Mapping) else load_study(source)
+    study = parse_study(dict(source)) if isinstance(source, Mapping) else load_study(source)
     grids, names = study.all_grids([folder])
-    datasets: dict[str, Any] = {name: _run_grid(grids[name], map, progress) for name in names}
+    datasets: Row = {name: _run_grid(grids[name], map, progress) for name in names}
     if study.cases:
         trees = dict(zip(study.cases, map(run_case, study.cases.values()), strict=True))
         datasets["cases"] = xr.DataTree(children=trees)
@@ -199,7 +191,7 @@ def run_study(
     return xr.DataTree.from_dict(datasets)
 
 
-def _run_grid(study: Study, map: Callable[..., Iterable[Any]], progress: bool) -> xr.Dataset:
+def _run_grid(study: Study, map: Map, progress: bool) -> Dataset:
     """The grid of a study, whose points are computed here."""
     points: Points = study.points.to_dict("records")
     call = call_of(study.layout)

@@ -36,16 +36,18 @@ from disc_model.studies.quantity import HOMES, Quantity, quantity_of
 from disc_model.units import Count, Strict, Tolerance
 
 ALL_MOTIONS = 100  # points of a grid up to which a motion of each is stored, some 3 kB each
+Content = dict[str, Any]
+"""What a file, or a part of it, says by key."""
 GRID_KEYS = frozenset({"options", "axes", "zip", "where", "points_per_job", "discs"})
 
 
 class StudyError(ParameterError):
     """A study file that breaks rules; `faults` are all of them, each once, as ``path=value: rule``."""
 
-    def __init__(self, *faults: str, source: str = "study") -> None:
+    def __init__(self, *faults: Fault | str, source: str = "study") -> None:
         super().__init__(*dict.fromkeys(faults))
         head = f"{source}: {counted(len(self.faults), 'fault')}"
-        self.args = ("\n  ".join([head, *self.faults]),)
+        self.args = ("\n  ".join([head, *map(str, self.faults)]),)
 
 
 # ---- Files
@@ -74,21 +76,19 @@ def read_file(path: Path) -> Any:
         raise StudyError(f"cannot be read as YAML: {error}", source=str(path)) from None
 
 
-def mapping(value: Any) -> Mapping[Any, Any]:
+def mapping(value: Any) -> Content:
     """The value if it is a mapping, else an empty one."""
-    return value if isinstance(value, Mapping) else {}
+    return value if isinstance(value, dict) else {}
 
 
-def inherit(base: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
+def inherit(base: Content, changes: Content) -> Content:
     """`changes` over `base`, mappings merged key by key; None drops what is inherited."""
-    merged = dict(base)
-    for key, value in changes.items():
-        if value is None and key in base:
+    merged = {**base, **changes}
+    for key in base.keys() & changes.keys():
+        if changes[key] is None:
             del merged[key]
-        elif isinstance(value, Mapping) and isinstance(merged.get(key), Mapping):
-            merged[key] = inherit(merged[key], value)
-        else:
-            merged[key] = value
+        elif isinstance(base[key], dict) and isinstance(changes[key], dict):
+            merged[key] = inherit(base[key], changes[key])
     return merged
 
 
@@ -96,8 +96,8 @@ def inherit(base: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, An
 
 
 def _figure(raw: Any) -> Kind | None:
-    if raw is None or isinstance(raw, Kind):
-        return raw
+    if raw is None:
+        return None
     from disc_model.figures.kinds import kind_of  # brings in matplotlib
 
     return kind_of(mapping(raw).get("kind")).model_validate(raw)
@@ -250,23 +250,27 @@ class Study(Strict):
     @cached_property
     def _kept(self) -> list[bool]:
         """Of all points of the grid, which are not left out."""
-        return keeps(expand(self.dims), self.where, self._beside)
+        return self._keeps(expand(self.dims))
+
+    def _keeps(self, points: pd.DataFrame) -> list[bool]:
+        """Which points keep the rules, of what varies and of the parameters that do not."""
+        return keeps(points, self.where, {**DEFAULTS, **self._base})
 
     @property
-    def _beside(self) -> dict[str, Any]:
-        """Values of the parameters that do not vary."""
-        return {**DEFAULTS, **self.base.model_dump(exclude_unset=True)}
+    def _base(self) -> Content:
+        """What the file says of the parameters that do not vary."""
+        return self.base.model_dump(exclude_unset=True)
 
     @cached_property
     def case(self) -> Parameters:
         """The case of the first point that is possible; raises `ParameterError`, with what is wrong at the
         last point, if none is."""
-        base = {**self.of.unset(self.options), **self.base.model_dump(exclude_unset=True)}
+        base = {**self.of.unset(self.options), **self._base}
         wrong = ParameterError()
-        for point in self.points.to_dict("records"):
-            own = {str(name): x for name, x in point.items() if name in Parameters.model_fields}
+        own = self.points.drop(columns=[*PERTURBATIONS], errors="ignore")
+        for point in own.to_dict("records"):
             try:
-                return case_of(base, self.discs, **own)
+                return case_of(base, self.discs, **{str(name): x for name, x in point.items()})
             except ParameterError as error:
                 wrong = error
         faults = []
@@ -275,7 +279,7 @@ class Study(Strict):
         raise ParameterError(*faults)
 
     @cached_property
-    def fixed(self) -> dict[str, Any]:
+    def fixed(self) -> Content:
         """The values of the case that all points have: not of what varies, nor those that something else
         replaces."""
         without = {*self._varied}
@@ -284,7 +288,7 @@ class Study(Strict):
         return {name: x for name, x in self.case.canonical.items() if name not in without}
 
     @property
-    def layout(self) -> dict[str, Any]:
+    def layout(self) -> Content:
         """What all points have in common, and the dimensions, for JSON."""
         used = {*self.points.get("disc", ())}
         return {
@@ -320,11 +324,9 @@ class Study(Strict):
         motion = self.of.motion
         if motion is None:
             return {}
-        few = dict(self.dims)
-        if len(self.points) > ALL_MOTIONS:
-            few = {dim: thinned(frame, motion.number) for dim, frame in self.dims.items()}
-        chosen = expand(few)
-        points = chosen[keeps(chosen, self.where, self._beside)].to_dict("records")
+        most = ALL_MOTIONS if len(self.points) <= ALL_MOTIONS else motion.number
+        chosen = expand({dim: thinned(frame, most) for dim, frame in self.dims.items()})
+        points = chosen[self._keeps(chosen)].to_dict("records")
         text = _text({**self.layout, "code": physics_hash(), "points": points})
         return {content_key(text): text} if points else {}
 
@@ -334,7 +336,7 @@ class Study(Strict):
         return {"study": self.study, "title": self.title}
 
     @property
-    def page(self) -> dict[str, Any]:
+    def page(self) -> Content:
         """What the explorer shows of the grid: units of figures, dimensions across and up in the first map,
         and what stored motions are."""
         units: dict[str, str] = {}
@@ -353,23 +355,51 @@ class Study(Strict):
         """The figures of grids."""
         return {name: plot for name, plot in self.figures.items() if isinstance(plot, Plot)}
 
-    def _faults_of(self, plot: Plot) -> Iterable[Fault]:
+    def _faults_of(self, plot: Plot) -> list[Fault]:
         """What keeps a figure from showing the grid of this study."""
         quantities = plot.shows.quantities
         if quantities and self.quantity not in quantities:
             return [Fault.of(("kind",), plot.kind, f"needs the quantity {quantities[0]}")]
         along: dict[str, list[Any]] = {}
         for dim, frame in self.dims.items():
-            alone = [*frame] == [dim]
-            along[dim] = [*frame[dim]] if alone else [*frame.itertuples(index=False, name=None)]
+            rows = [*frame.itertuples(index=False, name=None)]
+            along[dim] = rows if len(frame.columns) > 1 else [value for (value,) in rows]
         for name in plot.axes.values():
             if math.inf in along.get(name, ()):
                 return [Fault(("x",), name, "has the value inf, which no axis can show")]
         variables = {}
-        columns = self.of.columns
-        for name, column in columns.items():
-            variables[name] = {dim: along.get(dim, []) for dim in (*along, *column.dims)}
+        for name, column in self.of.columns.items():
+            variables[name] = {**along, **{dim: [] for dim in column.dims if dim not in along}}
         return plot.faults(along, variables)
+
+    def _misfits(self, plot: Plot, grids: Mapping[str, Study]) -> list[Fault]:
+        """What keeps a figure in this file from showing grids of other files."""
+        shown: dict[tuple[str, ...], str] = {("study",): plot.study or self.study}
+        shown |= {("overlays", role): name for role, name in plot.overlays.items()}
+        key = "; name the file of another study by the key studies: [{}.yaml]"
+        faults = []
+        for path, name in shown.items():
+            if name not in grids:
+                rule = f"no such study{suggestion(name, sorted(grids))}{key.format(name)}"
+                faults.append(Fault.of(path, name, rule))
+        if faults:
+            return faults
+        if plot.study not in ("", self.study):
+            faults += grids[plot.study]._faults_of(plot)
+        for role in plot.overlays.keys() & plot.roles.keys():
+            rule = grids[plot.overlays[role]]._no_overlay(plot, plot.roles[role].quantity)
+            if rule:
+                faults.append(Fault.of(("overlays", role), plot.overlays[role], rule))
+        return faults
+
+    def _no_overlay(self, plot: Plot, quantity: str) -> str:
+        """The rule that this study breaks as one that a figure draws over another of its plane; "" if none."""
+        plane = {getattr(self.options, name, None) for name in ("x", "y")} - {None}
+        if self.quantity != quantity:
+            return f"must be a study of the quantity {quantity}"
+        if {"x", "y"} <= plot.axes.keys() and not plane <= {*plot.axes.values()}:
+            return "must be computed in the plane of the figure"
+        return ""
 
     def entries(self, grids: Mapping[str, Study]) -> dict[tuple[str, str], FigureEntry]:
         """All figures of the file and of grids, by the study in whose folder they are and their names."""
@@ -386,26 +416,26 @@ class Study(Strict):
         """A figure, whose caption states what its cases are: the values that differ from Table 1 and do not
         vary."""
         if isinstance(plot, CasePlot):
-            cases = [self.cases[case].parameters for case in plot.cases]
-            values = "; ".join(dict.fromkeys(values_text(dict(p)) for p in cases))
-            modes = " and ".join(
-                IN_WORDS[each] for each in sorted({p.normalization for p in cases})
-            )
-            title = plot.title or name
-            caption = (
-                f"{plot.caption or f'{title}:'} {values}; everything else as in Table 1; {modes}."
-            )
-            titles = {case: self.cases[case].title for case in plot.cases}
-            inputs = {case: case for case in plot.cases}
-            return FigureEntry(plot, inputs, plot.section or plot.case, title, caption, titles)
+            return self._entry_of_cases(name, plot)
         assert isinstance(plot, Plot)
+        values = values_text(self.fixed, factors_of(plot.units))
+        source = ", with ".join(filter(None, [f"the grid study {self.study}", values]))
         title = plot.title or f"{self.title or self.study}: {name}"
-        stated = {name: x for name, x in self.fixed.items() if x or name not in ("N", "Omega")}
-        values = values_text(stated, factors_of(plot.units))
-        source = f"the grid study {self.study}" + (f", with {values}" if values else "")
         inputs = {"study": self.study, **dict(sorted(plot.overlays.items()))}
         caption = f"{plot.caption} From {source}.".strip()
         return FigureEntry(plot, inputs, plot.section, title, caption)
+
+    def _entry_of_cases(self, name: str, plot: CasePlot) -> FigureEntry:
+        cases = {case: self.cases[case] for case in plot.cases}
+        every = [case.parameters for case in cases.values()]
+        values = "; ".join(dict.fromkeys(values_text(dict(p)) for p in every))
+        modes = " and ".join(IN_WORDS[each] for each in sorted({p.normalization for p in every}))
+        title = plot.title or name
+        head = plot.caption or f"{title}:"
+        caption = f"{head} {values}; everything else as in Table 1; {modes}."
+        titles = {case: spec.title for case, spec in cases.items()}
+        inputs = dict(zip(cases, cases, strict=True))
+        return FigureEntry(plot, inputs, plot.section or plot.case, title, caption, titles)
 
     # ---- Further files
 
@@ -414,13 +444,7 @@ class Study(Strict):
     ) -> tuple[dict[str, Study], tuple[str, ...]]:
         """Studies of all grids, also those that only figures show, and the names of those of this file and
         the files it names."""
-        named = [load_study(path) for each in self.studies for path in _matching(each, folders)]
-        own = [self] if self.has_grid else []
-        grids = {study.study: study for study in (*own, *named)}
-        wrong = [study.study for study in named if study.cases or study.studies]
-        if wrong or len(grids) < len(own + named):
-            rule = "must be files of grids alone, each of another study"
-            raise StudyError(Fault.of(("studies",), wrong, rule), source=self.study)
+        grids = self._named_grids(folders)
         asked = tuple(grids)
         for plot in self.plots.values():
             for name in {plot.study, *plot.overlays.values()} - {"", *grids}:
@@ -428,95 +452,87 @@ class Study(Strict):
                 if path.is_file():
                     grids[name] = load_study(path)
         faults = []
-        for owner in {self.study: self, **{name: grids[name] for name in asked}}.values():
+        for owner in (self, *(grids[name] for name in asked if name != self.study)):
             for figure, plot in owner.plots.items():
-                for fault in _misfits(plot, owner.study, grids):
+                for fault in owner._misfits(plot, grids):
                     faults.append(f"{owner.study}: {fault.inside(('figures', figure))}")
         if faults:
             raise StudyError(*faults, source="grid studies")
         return grids, asked
 
+    def _named_grids(self, folders: Sequence[Path]) -> dict[str, Study]:
+        """The grid of this file, and those of the files that it names."""
+        named = [load_study(path) for each in self.studies for path in _matching(each, folders)]
+        every = [self] * self.has_grid + named
+        grids = {study.study: study for study in every}
+        wrong = [study.study for study in named if study.cases or study.studies]
+        if wrong or len(grids) < len(every):
+            rule = "must be files of grids alone, each of another study"
+            raise StudyError(Fault.of(("studies",), wrong, rule), source=self.study)
+        return grids
+
 
 def _matching(pattern: str, folders: Sequence[Path]) -> list[Path]:
     """Files that match a pattern, in the first folder that has any; the pattern itself if there are none."""
-    matches = (sorted(glob(str(folder / pattern))) for folder in folders)
-    return [Path(path) for path in next(filter(None, matches), [pattern])]
-
-
-def _misfits(plot: Plot, owner: str, grids: Mapping[str, Study]) -> Iterator[Fault]:
-    """What keeps a figure in the file of a study from showing grids of other files."""
-    named: dict[tuple[str, ...], str] = {("study",): plot.study or owner}
-    named |= {("overlays", role): name for role, name in plot.overlays.items()}
-    for path, name in named.items():
-        if name not in grids:
-            key = f"; name the file of another study by the key studies: [{name}.yaml]"
-            rule = f"no such study{suggestion(name, sorted(grids))}{key}"
-            yield Fault.of(path, name, rule)
-            return
-    if plot.study not in ("", owner):
-        yield from grids[plot.study]._faults_of(plot)
-    for role in plot.overlays.keys() & plot.roles.keys():
-        other = grids[plot.overlays[role]]
-        plane = {getattr(other.options, name, None) for name in ("x", "y")} - {None}
-        needed = plot.roles[role].quantity
-        broken = ""
-        if other.quantity != needed:
-            broken = f"must be a study of the quantity {needed}"
-        elif {"x", "y"} <= plot.axes.keys() and not plane <= {*plot.axes.values()}:
-            broken = "must be computed in the plane of the figure"
-        if broken:
-            yield Fault.of(("overlays", role), other.study, broken)
+    for folder in folders:
+        if matches := sorted(glob(str(folder / pattern))):
+            return [Path(path) for path in matches]
+    return [Path(pattern)]
 
 
 # ---- From files to studies
 
 
-def load_study(*paths: str | Path) -> Study:
+def load_study(*files: str | Path) -> Study:
     """Read and check study files, later ones laid over earlier ones, but not the files that they name."""
-    files = [Path(path) for path in paths]
-    contents = [mapping(read_file(file)) for file in files]
-    return study_from_config(reduce(inherit, contents), files)
+    paths = [Path(file) for file in files]
+    return parse_study(reduce(inherit, [mapping(read_file(path)) for path in paths]), paths)
 
 
-def study_from_config(config: Any, files: Sequence[Path]) -> Study:
-    """The study of merged configuration files, such as Snakemake's."""
+def parse_study(raw: Any, files: Sequence[Path] = ()) -> Study:
+    """The study of the mapping that files hold, merged, such as Snakemake's configuration; tables of discs
+    lie beside the last one."""
     folder = files[-1].parent if files else Path()
-    return parse_study(config, folder, ", ".join(map(str, files)) or "study")
-
-
-def parse_study(raw: Any, folder: Path, source: str = "study") -> Study:
-    """The study of the mapping that a file holds, with tables of discs from a folder."""
+    content = dict(mapping(raw))
+    content |= _inherited(content)
+    content |= _named_discs(content)
     try:
-        return Study.model_validate(_with_discs(_inherited(mapping(raw)), folder))
+        return Study.model_validate(_with_discs(content, folder))
     except ParameterError as error:
         shared = [fault for fault in error.faults if fault.path[:1] != ("cases",)]
+        source = ", ".join(map(str, files)) or "study"
         raise StudyError(*(shared or error.faults), source=source) from None
 
 
-def _inherited(raw: Mapping[str, Any]) -> dict[str, Any]:
-    """The content of a file, in which each case has what it inherits, and discs along an axis that `discs`
-    does not name stand for themselves."""
-    content = dict(raw)
-    keys = {"base": "parameters", "record": "record", "tol": "tol"}
-    shared = {inner: content[key] for key, inner in keys.items() if content.get(key) is not None}
+def _inherited(content: Content) -> Content:
+    """The cases of a file, in which each has what it inherits."""
+    shared: Content = {"parameters": {}}
+    for key, inner in (("base", "parameters"), ("record", "record"), ("tol", "tol")):
+        if content.get(key) is not None:
+            shared[inner] = content[key]
     cases = content.get("cases")
-    if isinstance(cases, Mapping):
-        content["cases"] = {
-            name: {"parameters": {}, **inherit(shared, case)} if isinstance(case, Mapping) else case
-            for name, case in cases.items()
-        }
+    if not isinstance(cases, dict):
+        return {}
+    every = {}
+    for name, case in cases.items():
+        every[name] = inherit(shared, case) if isinstance(case, dict) else case
+    return {"cases": every}
+
+
+def _named_discs(content: Content) -> Content:
+    """The discs of a file; those along an axis that have no name there stand for themselves."""
     discs = dict(mapping(content.get("discs")))
     for group in (content.get("axes"), *_several(content.get("zip"))):
         for name in _several(mapping(group).get("disc", [])):
             discs.setdefault(name, name)
-    return {**content, "discs": discs} if discs else content
+    return {"discs": discs} if discs else {}
 
 
 def _with_discs(raw: Any, folder: Path, *path: str) -> Any:
     """A file's content with discs in place of the names of their tables: recomputation depends on a
     table's content."""
-    if isinstance(raw, Mapping):
-        return {key: _with_discs(part, folder, *path, str(key)) for key, part in raw.items()}
+    if isinstance(raw, dict):
+        return {str(x): _with_discs(part, folder, *path, str(x)) for x, part in raw.items()}
     named = path[:-1] == ("discs",) or path[-2:] in (("base", "disc"), ("parameters", "disc"))
     if not (named and isinstance(raw, str)):
         return raw

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import inspect
 import json
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from typing import Any
 
 import numpy as np
 import pandas as pd
-import xarray as xr
+from xarray import Dataset
 
 from disc_model.data.columns import result_dataset
 from disc_model.data.variables import COMMON, OF_RESULTS
@@ -18,7 +18,7 @@ from disc_model.errors import Fault, ParameterError, raise_faults, require, sugg
 from disc_model.modal_disc import si_unit_of_mode
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.provenance import versions_text
-from disc_model.studies.compute import Call, compute, is_of_case, stack
+from disc_model.studies.compute import Call, Map, compute, is_of_case, stack
 from disc_model.studies.grid import Points, expand
 from disc_model.units import in_si, is_number
 
@@ -29,10 +29,10 @@ def sweep(
     *,
     over: Mapping[str, Sequence[Any]] | None = None,
     zip: Mapping[str, Sequence[Any]] | None = None,
-    map: Callable[..., Iterable[Any]] = map,
+    map: Map = map,
     progress: bool = False,
     **named: Any,
-) -> xr.Dataset:
+) -> Dataset:
     """Call a function for each combination of values of parameters, and gather the results.
 
     Parameters
@@ -74,42 +74,52 @@ def sweep(
     (Frozen({'N_Omega': 2}), array([385., 300.]))
     """
     raise_faults(foreign_case(case))
+    over = over or {}
     arguments = dict(inspect.signature(function).parameters)
     arguments.pop(next(iter(arguments), ""), None)
-    over = over or {}
     varied = {name: x for name, x in named.items() if is_of_case(name) and name not in arguments}
     options = {name: x for name, x in named.items() if name not in varied}
-    if not any(x.kind is x.VAR_KEYWORD for x in arguments.values()):
-        known = [*arguments, *Parameters.model_fields]
-        rule = "is no number of the case, and no argument of the function"
-        unknown = [name for name in (*options, *over) if name not in arguments]
-        raise_faults([Fault((name,), "", rule + suggestion(name, known)) for name in unknown])
+    _refuse_unknown((*options, *over), arguments)
     dims = _dimensions(case, varied, dict({} if zip is None else zip), over)
     points = expand(dims)
     name = str(getattr(function, "__name__", type(function).__name__))
     call = Call(partial(_gathered, function, name, {*points, *dims}), case.replace, options)
     rows: Points = points.to_dict("records")
     results = compute(call, rows, map=map, title=name, progress=progress)
+    _refuse_failure(results)
     if name == "steady_sliding":
         _number_fastest(case, rows, results)
     found = stack(results, dims)
-    messages = found["message"].values.ravel().tolist()
-    if all(text.startswith("ParameterError") for text in messages):
-        raise ParameterError(f"no point of the sweep has a result: {messages[0]}")
     for said in ("status", "message"):
         found[said].attrs.setdefault("long_name", COMMON[said].long_name)
     defaults = {key: x.default for key, x in arguments.items()}
     used = {key: x for key, x in defaults.items() if isinstance(x, bool | int | float | str)}
-    attrs = {
-        "function": name,
-        "options": json.dumps(used | options, sort_keys=True, default=repr),
-        "parameters": case.canonical_json,
-        "versions": versions_text(),
-    }
-    return found.assign_attrs(attrs)
+    return found.assign_attrs(
+        function=name,
+        options=json.dumps(used | options, sort_keys=True, default=repr),
+        parameters=case.canonical_json,
+        versions=versions_text(),
+    )
 
 
-def _number_fastest(case: Parameters, rows: Points, results: Sequence[xr.Dataset]) -> None:
+def _refuse_failure(results: Sequence[Dataset]) -> None:
+    """Raise `ParameterError` if no point could be computed because its case or the arguments were wrong."""
+    messages = [str(result["message"].values) for result in results]
+    if all(text.startswith("ParameterError") for text in messages):
+        raise ParameterError(f"no point of the sweep has a result: {messages[0]}")
+
+
+def _refuse_unknown(names: Sequence[str], arguments: Mapping[str, inspect.Parameter]) -> None:
+    """Raise `ParameterError` for names that are no arguments of the function."""
+    if any(each.kind is each.VAR_KEYWORD for each in arguments.values()):
+        return
+    known = [*arguments, *Parameters.model_fields]
+    rule = "is no number of the case, and no argument of the function"
+    unknown = [name for name in names if name not in arguments]
+    raise_faults([Fault((name,), "", rule + suggestion(name, known)) for name in unknown])
+
+
+def _number_fastest(case: Parameters, rows: Points, results: Sequence[Dataset]) -> None:
     """Add the number of the mode that grows fastest to results of steady sliding, followed from point to point."""
     from disc_model.stability.sliding import follow_modes
 
@@ -122,16 +132,13 @@ def _number_fastest(case: Parameters, rows: Points, results: Sequence[xr.Dataset
 
 def _gathered(
     function: Callable[..., Any], name: str, taken: set[str], case: Parameters, /, **options: Any
-) -> xr.Dataset:
-    """What a function returns, as a dataset without variables and dimensions of one value that the sweep
-    has itself."""
+) -> Dataset:
+    """What a function returns, as a dataset without variables that the sweep has itself."""
     result = result_dataset(function(case, **options), name)
-    shared = [dim for dim in result.dims if dim in taken]
-    for dim in shared:
-        if result.sizes[dim] > 1:
-            rule = f"returned values along {dim}, which is a dimension of the sweep"
-            raise ParameterError(Fault(("function",), "", rule))
-    return result.squeeze(shared, drop=True).drop_vars(taken, errors="ignore")
+    shared = taken.intersection(map(str, result.dims))
+    rule = f"returned values along {', '.join(shared)}, which the sweep varies"
+    require((not shared, "function", "", rule))
+    return result.drop_vars(taken, errors="ignore")
 
 
 def _dimensions(
@@ -157,8 +164,6 @@ def _column(name: str, values: Any, case: Parameters) -> list[Any]:
         (several, name, values, "must be a list of values"),
         (known, name, values, f"is no number of the case{suggestion(name, case.numbers)}"),
     )
-    faults: list[Fault] = []
     given = np.asarray(values, dtype=object).tolist()
-    column = in_si(given, Parameters.unit(name) or si_unit_of_mode(name), faults, (name,))
-    raise_faults(faults)
+    column = in_si(given, Parameters.unit(name) or si_unit_of_mode(name), name)
     return [float(value) if is_number(value) else value for value in column]

@@ -9,22 +9,24 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
+from operator import attrgetter
 from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
-import xarray as xr
 from pydantic import Field
+from xarray import Dataset
 
 from disc_model.analysis.classify import share
 from disc_model.data.variables import UNKNOWN_OUTCOMES, WORDS
 from disc_model.errors import require
 from disc_model.parameters import Parameters
-from disc_model.studies.quantity import MOST, found, listed, quantity, with_ends
+from disc_model.studies.quantity import MOST, Row, found, quantity, with_ends
 from disc_model.units import Count, Real, Seconds, Tolerance, Unit
 
 if TYPE_CHECKING:
     from disc_model.stability.follower import OutcomeResult
 
+Objects = np.ndarray[Any, np.dtype[np.object_]]
 Energy = Annotated[Real, Field(ge=0, allow_inf_nan=False), Unit("J")]
 PRECISION = 1.05
 """Ratio of energies between which the critical one lies."""
@@ -33,8 +35,11 @@ SMALLEST = 2.0**-40
 MOST_ATTRACTORS = 12
 CLASSES = (*WORDS["long_term"][1:], WORDS["long_term"][0])
 """Outcomes of a start."""
-OF_ATTRACTORS = ("kind", "releases", "period", "growth_rate")
-OF_SEGMENTS = ("range", "separation_rate", "stick_fraction", "separation_fraction")
+OF_ATTRACTORS = (
+    *("kind", "releases", "period", "growth_rate"),
+    *("segment.range", "segment.separation_rate"),
+    *("segment.stick_fraction", "segment.separation_fraction"),
+)
 """What is stored of an attractor, and of a stretch on it."""
 
 
@@ -56,7 +61,7 @@ def basins(
     horizon: Seconds = 200.0,
     seed: Annotated[Count, Field(ge=0)] = 1,
     tol: Tolerance = 1e-10,
-) -> xr.Dataset:
+) -> Dataset:
     """Attractors of a case, the share of starts that comes to each, and the least energy found that leads to
     separation.
 
@@ -80,11 +85,6 @@ def basins(
         to an attractor on which contact is lost. Undecided starts count as separating at the upper ends of intervals,
         as not separating at the lower ones, and `separating_fraction` is of the other starts; `message` counts the
         starts that are undecided within the horizon
-
-    Raises
-    ------
-    ParameterError
-        If an argument breaks a rule; the message names the argument, its value and the rule.
 
     Examples
     --------
@@ -111,40 +111,18 @@ def basins(
     for i, j in np.ndindex(n_starts, len(energies)):
         results[j, i] = follow(energies[j], i, j)
     every = results.ravel().tolist()
-
-    # by decreasing number of starts; of equal numbers the one reached first comes first
-    counts = Counter(reached.attractor for reached in every if reached.attractor is not None)
-    numbers: dict[Any, int] = {None: 0}
-    attractors = []
-    for attractor, starts in counts.most_common():
-        numbers[attractor] = len(numbers)
-        shown = {name: getattr(attractor, name) for name in OF_ATTRACTORS}
-        shown |= {name: getattr(attractor.segment, name) for name in OF_SEGMENTS}
-        attractors.append({"starts": starts, **shown})
-    failed = [reached for reached in every if reached.outcome is None]
-    undecided = sum(reached.word == "undecided" for reached in every)
-    remarks = []
-    if failed:
-        remarks.append(f"{len(failed)} of {len(every)} starts failed, such as {failed[0].message}")
-    if undecided:
-        remarks.append(f"{undecided} of {len(every)} starts undecided within the horizon: raise it")
-
-    def of_starts(value: Callable[[OutcomeResult], Any]) -> Any:
-        return np.vectorize(value, otypes=[object])(results).tolist()
-
     decided = [reached.separates for reached in every if reached.attractor is not None]
     separating = share(sum(decided), len(decided), len(every) - len(decided))
-    by_energy = np.array([[*_shares(row)] for row in results.tolist()])
+    by_energy = np.array([_shares(row) for row in results.tolist()])
     values = {
-        "status": failed[0].status if len(failed) == len(every) else "ok",
-        "kind": of_starts(lambda reached: reached.word),
-        "attractor_index": of_starts(lambda reached: numbers[reached.attractor]),
-        "simulated_time": of_starts(lambda reached: reached.simulated),
-        "lost_contact": of_starts(_lost_contact),
+        "status": _status_of(every),
+        "kind": _each(results, lambda reached: reached.word),
+        "simulated_time": _each(results, lambda reached: reached.simulated),
+        "lost_contact": _each(results, _lost_contact),
         **with_ends("basin_fraction_by_energy", np.moveaxis(by_energy, -1, 0)),
-        **with_ends("basin_fraction", np.transpose([*_shares(every)])),
+        **with_ends("basin_fraction", np.transpose(_shares(every))),
         **with_ends("separating_fraction", separating),
-        **{f"attractor_{name}": column for name, column in listed(attractors).items()},
+        **_attractors(results),
     }
     each = np.ndenumerate(results)
     apart = [(energies[j], i, j) for (j, i), reached in each if reached.separates]
@@ -152,7 +130,45 @@ def basins(
         values |= _critical_energy(*min(apart), lambda *start: follow(*start).separates)
     own = {"energy": energies, "start": range(n_starts), "attractor_class": CLASSES}
     own["attractor"] = range(1, MOST_ATTRACTORS + 1)
-    return found("basins", values, "; ".join(remarks), **own)
+    return found("basins", values, "; ".join(_remarks(every)), **own)
+
+
+def _status_of(every: Sequence[OutcomeResult]) -> str:
+    """How the first start failed if all have, else "ok"."""
+    if all(reached.outcome is None for reached in every):
+        return every[0].status
+    return "ok"
+
+
+def _remarks(every: Sequence[OutcomeResult]) -> Iterator[str]:
+    """Yield how many starts failed or stayed undecided, if any."""
+    failed = [reached for reached in every if reached.outcome is None]
+    if failed:
+        yield f"{len(failed)} of {len(every)} starts failed, such as {failed[0].message}"
+    undecided = sum(reached.word == "undecided" for reached in every)
+    if undecided:
+        yield f"{undecided} of {len(every)} starts undecided within the horizon: raise it"
+
+
+def _each(results: Objects, value: Callable[[OutcomeResult], Any]) -> Any:
+    """A value of each start, by energies and starts."""
+    return np.vectorize(value, otypes=[object])(results).tolist()
+
+
+def _attractors(results: Objects) -> Row:
+    """Columns of the attractors by decreasing number of starts; of equal numbers the one reached first
+    comes first."""
+    counts = Counter(reached.attractor for reached in results.ravel() if reached.attractor)
+    order = counts.most_common()
+    numbers = {attractor: 1 + i for i, (attractor, _) in enumerate(order)}
+    columns = {
+        "attractor_index": _each(results, lambda reached: numbers.get(reached.attractor, 0)),
+        "attractor_starts": [starts for _, starts in order],
+    }
+    for path in OF_ATTRACTORS:
+        name = path.removeprefix("segment.")
+        columns[f"attractor_{name}"] = [attrgetter(path)(attractor) for attractor in numbers]
+    return columns
 
 
 def _lost_contact(reached: OutcomeResult) -> str:
@@ -188,13 +204,15 @@ def _critical_energy(
     return {**least, "critical_energy_lower": low, "critical_energy": high}
 
 
-def _shares(row: Sequence[OutcomeResult]) -> Iterator[tuple[float, float, float]]:
+def _shares(row: Sequence[OutcomeResult]) -> list[tuple[float, float, float]]:
     """Fractions of some starts that come to each class, with Wilson intervals, at whose upper ends the starts
     of unknown outcome come to it as well."""
+    shares = []
     counts = Counter(reached.word for reached in row)
     for word in CLASSES:
         unknown = 0
         if word not in UNKNOWN_OUTCOMES:
             unknown = sum(counts[other] for other in UNKNOWN_OUTCOMES)
         _, low, high = share(counts[word], len(row) - unknown, unknown)
-        yield counts[word] / len(row), low, high
+        shares.append((counts[word] / len(row), low, high))
+    return shares

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
-import xarray as xr
 from pydantic import Field
+from xarray import Dataset
 
 from disc_model.analysis.classify import Motion as MotionKind
 from disc_model.analysis.classify import closure
@@ -14,7 +14,7 @@ from disc_model.data.variables import Outcome
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Start
 from disc_model.stability.follower import FIRST_LEG
-from disc_model.studies.quantity import MOST, STATIC, Motion, found, quantity
+from disc_model.studies.quantity import MOST, STATIC, Motion, Row, found, quantity
 from disc_model.units import Count, Seconds, Tolerance
 
 if TYPE_CHECKING:
@@ -49,7 +49,7 @@ def bifurcation(
     samples: Annotated[Count, Field(ge=1, le=MOST)] = 50,
     start: Start = STATIC,
     tol: Tolerance = 1e-10,
-) -> xr.Dataset:
+) -> Dataset:
     """Samples of the motion after a transient, for bifurcation diagrams, at separations if there are any, else at
     releases: a periodic motion shows as many points as its period has events.
 
@@ -60,17 +60,6 @@ def bifurcation(
     samples : number of samples
     start : start of the motion
     tol : tolerance of simulations: error of event times after a second of motion
-
-    Returns
-    -------
-    xarray.Dataset
-        The variables of a study of this quantity, with words as words; attributes are the case (`parameters`), the
-        `options`, and in `message` what went wrong or is missing
-
-    Raises
-    ------
-    ParameterError
-        If an argument breaks a rule; the message names the argument, its value and the rule.
 
     Examples
     --------
@@ -102,7 +91,7 @@ def _transient_of(
 
 def _at_switches(
     case: Parameters, legs: list[Result], reached: Arrival, samples: int, tol: float
-) -> dict[str, Any]:
+) -> Row:
     """Samples at separations, or at releases where there are none."""
     from disc_model.simulation.api import simulate
     from disc_model.stability.segments import stick_share
@@ -117,23 +106,22 @@ def _at_switches(
     else:
         stick = stick_share(last if reached.calm is None else record)
     events = record.events
-    apart = bool((events["kind"] == "separation").any())
-    taken = events[events["kind"] == ("separation" if apart else "stick_to_slip")]
+    taken, phase = events[events["kind"] == "separation"], "separation"
+    if taken.empty:
+        taken, phase = events[events["kind"] == "stick_to_slip"], "stick"
     shown = taken.iloc[-samples:]
     return {
-        "psi": shown["psi"].to_numpy(dtype=float),
+        **{name: shown[name].to_numpy(dtype=float) for name in ("psi", "P", "u")},
         "psi_velocity": case.Omega - shown["f"].to_numpy(dtype=float),
-        "P": shown["P"].to_numpy(dtype=float),
-        "u": shown["u"].to_numpy(dtype=float),
         **_motion_reached(case, reached, last, tol),
-        "phase": ["separation" if apart else "stick"] * len(shown),
-        "first_separation": firsts[0] if firsts else np.nan,
+        "phase": [phase] * len(shown),
+        "first_separation": next(iter(firsts), np.nan),
         "separations": sum(int(run.statistics["n_separations"]) for run in every),
         "stick_fraction": stick,
     }
 
 
-def _motion_reached(case: Parameters, reached: Arrival, run: Result, tol: float) -> dict[str, Any]:
+def _motion_reached(case: Parameters, reached: Arrival, run: Result, tol: float) -> Row:
     """Columns that say whether a motion has settled at the end of a run, and on what: by the proof of its
     arrival, or else by its regularity if the record shows that it has settled."""
     from disc_model.stability.attractors import regularity

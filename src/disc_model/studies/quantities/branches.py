@@ -5,11 +5,12 @@ there.
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
-import xarray as xr
+from xarray import Dataset
 
 from disc_model.arrays import Array
 from disc_model.data.variables import OF_QUANTITIES, value_with_unit
@@ -19,13 +20,16 @@ from disc_model.studies.quantities.hysteresis import DIRECTIONS, STAYS
 from disc_model.studies.quantity import (
     BETWEEN,
     NUMERICAL,
+    Bounds,
     Free,
+    Row,
+    Step,
     found,
     listed,
     quantity,
     values_between,
 )
-from disc_model.units import Finite, Positive, Seconds, Tolerance, Unit
+from disc_model.units import Finite, Seconds, Tolerance, Unit
 
 if TYPE_CHECKING:
     from disc_model.stability.continuation import Branch
@@ -57,13 +61,13 @@ def branches(
     case: Parameters,
     *,
     name: Free = "Omega",
-    bounds: Annotated[tuple[Finite, Finite], Unit(of="name")],
-    step: Annotated[Positive, Unit(of="name")],
+    bounds: Bounds,
+    step: Step,
     sweep_from: Annotated[Finite | None, Unit(of="name")] = None,
     dwell: Seconds,
     max_dwell: Seconds = 480.0,
     tol: Tolerance = 1e-10,
-) -> xr.Dataset:
+) -> Dataset:
     """Branches of stable and unstable cycles against one parameter, by continuation, and a sweep up and down.
 
     Parameters
@@ -76,17 +80,6 @@ def branches(
     max_dwell : longest time at a value
     tol : tolerance of simulations: error of event times after a second of motion
 
-    Returns
-    -------
-    xarray.Dataset
-        The variables of a study of this quantity, with words as words; attributes are the case (`parameters`), the
-        `options`, and in `message` what went wrong or is missing
-
-    Raises
-    ------
-    ParameterError
-        If an argument breaks a rule; the message names the argument, its value and the rule.
-
     Examples
     --------
     >>> import disc_model as dm
@@ -95,9 +88,7 @@ def branches(
     1
     """
     from disc_model.stability.attractors import sweep
-    from disc_model.stability.continuation import StepControl, continue_cycle
     from disc_model.stability.cycle import find_cycle
-    from disc_model.stability.segments import extremes_of_cycle
     from disc_model.stability.sliding import steady_sliding
 
     values = values_between(bounds, step)
@@ -105,32 +96,7 @@ def branches(
     swept = {}
     for variable in ("sweep_range", "sweep_separation_rate", "sweep_settled"):
         swept[variable] = columns[variable].empty((2, len(values)))
-    # leaves room for special points between those computed: as a step turns by 26 degrees at most, at least six
-    # lie from fold to fold; with other bifurcations there is one among nine to eighteen points
-    steps = StepControl(longest=LONGEST, max_points=5 * MOST_POINTS // 6, beyond=True)
-    rows: list[dict[str, Any]] = []
-    failures = 0
-    left_out = 0
-
-    def follow(cycle: FloquetResult, **how: Any) -> None:
-        """Continue a cycle in both directions, unless a known branch passes there."""
-        nonlocal failures, left_out
-        assert cycle.state is not None
-        low, high = extremes_of_cycle(cycle.parameters, cycle.state, cycle.period)
-        value = cycle.parameters.numbers[name]
-        if any(_passes(row, value, cycle.period, high - low) for row in rows):
-            return
-        if len(rows) >= MOST_BRANCHES:
-            left_out += 1
-            return
-        ends = (values[0], values[-1])
-        try:
-            branch = continue_cycle(cycle.parameters, name, ends, steps=steps, **how)
-        except NUMERICAL:
-            failures += 1
-        else:
-            rows.extend(_stretches(branch, cycle.releases))
-
+    family = Family(name, (values[0], values[-1]))
     remarks = []
     lowest = 0 if sweep_from is None else int(np.searchsorted(values, sweep_from))
     stays = sweep(case, name, values, dwell, max_dwell, EVALUATED, tol, lowest)
@@ -145,31 +111,70 @@ def branches(
         if way == 0 or i < lowest:
             near_start = find_cycle(result.parameters)
             if near_start.state is not None:
-                follow(near_start)
+                family.follow(near_start)
         if reached.near is not None and reached.near.cycle.releases <= MOST_RELEASES:
             cycle = reached.near.cycle
-            follow(cycle, guess=cycle.state, releases=cycle.releases)
-    found_values: dict[str, Any] = {
-        **listed(rows),
+            family.follow(cycle, guess=cycle.state, releases=cycle.releases)
+    found_values: Row = {
+        **listed(family.rows),
         **swept,
         "status": "failed" if remarks else "ok",
-        "n_branches": len(rows),
-        "n_continuation_failures": failures,
+        "n_branches": len(family.rows),
+        "n_continuation_failures": family.failures,
         "sliding_growth_rate": [
             steady_sliding(case.replace(**{name: x})).growth_rate for x in values
         ],
     }
-    if left_out:
-        remarks.append(
-            f"{counted(left_out, 'cycle')} of further branches, for which there is no room"
-        )
-    own: dict[str, Any] = {"branch": range(MOST_BRANCHES), "branch_point": range(2 * MOST_POINTS)}
+    if family.left_out:
+        cycles = counted(family.left_out, "cycle")
+        remarks.append(f"{cycles} of further branches, for which there is no room")
+    own: Row = {"branch": range(MOST_BRANCHES), "branch_point": range(2 * MOST_POINTS)}
     message = "; ".join(remarks)
     own |= {"direction": DIRECTIONS, "sweep_value": values}
     return found("branches", found_values, message, **own)
 
 
-def _stretches(branch: Branch, releases: int) -> list[dict[str, Any]]:
+@dataclass
+class Family:
+    """Branches along one number of the case.
+
+    name, ends : of the number, and between which values
+    rows : columns of each stretch of a branch
+    failures, left_out : cycles that could not be continued, and those for which there was no room
+    """
+
+    name: str
+    ends: tuple[float, float]
+    rows: list[Row] = field(default_factory=list)
+    failures: int = 0
+    left_out: int = 0
+
+    def follow(self, cycle: FloquetResult, **how: Any) -> None:
+        """Continue a cycle in both directions, unless a known branch passes there."""
+        from disc_model.stability.continuation import StepControl, continue_cycle
+        from disc_model.stability.segments import extremes_of_cycle
+
+        case = cycle.parameters
+        assert cycle.state is not None
+        low, high = extremes_of_cycle(case, cycle.state, cycle.period)
+        value = case.numbers[self.name]
+        if any(_passes(row, value, cycle.period, high - low) for row in self.rows):
+            return
+        if len(self.rows) >= MOST_BRANCHES:
+            self.left_out += 1
+            return
+        # leaves room for special points between those computed: as a step turns by 26 degrees at most, at least six
+        # lie from fold to fold; with other bifurcations there is one among nine to eighteen points
+        steps = StepControl(longest=LONGEST, max_points=5 * MOST_POINTS // 6, beyond=True)
+        try:
+            branch = continue_cycle(case, self.name, self.ends, steps=steps, **how)
+        except NUMERICAL:
+            self.failures += 1
+        else:
+            self.rows += _stretches(branch, cycle.releases)
+
+
+def _stretches(branch: Branch, releases: int) -> list[Row]:
     """A branch with the special points at which its stability may change among its points: a row for each
     stretch with one number of separations in a period. A stretch begins at the last point of the one before,
     to which it is joined."""
@@ -185,14 +190,14 @@ def _stretches(branch: Branch, releases: int) -> list[dict[str, Any]]:
     ends = [0, *(np.flatnonzero(np.diff(separations)) + 1), len(separations)]
     for first, end in pairwise(ends):
         points = slice(max(first - 1, 0), end)
-        row: dict[str, Any] = {key: column[points] for key, column in columns.items()}
+        row: Row = {key: column[points] for key, column in columns.items()}
         row |= {"releases": releases, "separations": int(separations[first])}
         if len(row["value"]) > 1:
             rows.append(row)
     return rows
 
 
-def _passes(row: dict[str, Any], value: float, period: float, size: float) -> bool:
+def _passes(row: Row, value: float, period: float, size: float) -> bool:
     """Whether a branch passes a value of the parameter with about this period and this range of the
     slider's height."""
     beyond: Array = row["value"] - value

@@ -13,17 +13,26 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import Annotated, Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
-import xarray as xr
+from xarray import Dataset
 
 from disc_model.analysis.frequency_jumps import frequency_jumps
 from disc_model.arrays import Array, Mask
 from disc_model.data.variables import message_of
 from disc_model.parameters import Parameters
-from disc_model.studies.quantity import BETWEEN, NUMERICAL, found, listed, quantity, values_between
-from disc_model.units import CycleTolerance, Finite, Speed, Unit
+from disc_model.studies.quantity import (
+    BETWEEN,
+    Row,
+    Speeds,
+    attempted,
+    found,
+    listed,
+    quantity,
+    values_between,
+)
+from disc_model.units import CycleTolerance, Speed
 
 LEAST_SPEEDS = 3
 """Least number of speeds in a window by which the effect of a crossing is known."""
@@ -40,12 +49,8 @@ MIN_RISE = 0.01
 
 @quantity(own=("Omega",), rules=BETWEEN)
 def campbell(
-    case: Parameters,
-    *,
-    bounds: Annotated[tuple[Finite, Finite], Unit("rad/s")],
-    step: Speed,
-    tol: CycleTolerance = 1e-12,
-) -> xr.Dataset:
+    case: Parameters, *, bounds: Speeds, step: Speed, tol: CycleTolerance = 1e-12
+) -> Dataset:
     """Frequencies and growth rates of steady sliding and of the stick-slip cycle against the speed, and their
     crossings with multiples of the stick-slip and rotation frequencies.
 
@@ -58,17 +63,6 @@ def campbell(
     step : between speeds
     tol : tolerance of cycles: relative residual of the return map
 
-    Returns
-    -------
-    xarray.Dataset
-        The variables of a study of this quantity, with words as words; attributes are the case (`parameters`), the
-        `options`, and in `message` what went wrong or is missing
-
-    Raises
-    ------
-    ParameterError
-        If an argument breaks a rule; the message names the argument, its value and the rule.
-
     Examples
     --------
     >>> import disc_model as dm
@@ -77,17 +71,10 @@ def campbell(
     array([66.8, 67.1, 67.5])
     """
     speeds = values_between(bounds, step)
-    rows = []
-    messages = []
-    for speed in speeds:
-        try:
-            row, message = _at_speed(case.replace(Omega=speed), tol)
-        except NUMERICAL as error:
-            row, message = {"status": "failed"}, f"{type(error).__name__}: {error}"
-        rows.append(row)
-        messages.append(message)
-    values: dict[str, Any] = dict(listed(rows))
-    own: dict[str, Any] = {"Omega": speeds, "mode": range(1, MODES + 1)}
+    rows: list[Row] = [{} for _ in speeds]
+    messages = attempted(rows, lambda i, row: _at_speed(case.replace(Omega=speeds[i]), tol, row))
+    values: Row = dict(listed(rows))
+    own: Row = {"Omega": speeds, "mode": range(1, MODES + 1)}
     crossings = [*_crossings(found("campbell", values, messages, **own))]
     crossings.sort(key=lambda row: (row["Omega"], row["mode"], row["multiple"]))
     values["n_crossings"] = len(crossings)
@@ -95,12 +82,12 @@ def campbell(
     return found("campbell", values, messages, **own, crossing=range(1, CROSSINGS + 1))
 
 
-def _at_speed(case: Parameters, tol: float) -> tuple[dict[str, Any], str]:
-    """Values at a speed, and a message."""
+def _at_speed(case: Parameters, tol: float, row: Row) -> Iterator[str]:
+    """Add the values at a speed; yields a message."""
     from disc_model.stability.frequencies import frequencies, may_be_near
 
     cycle, modes, (frequency, growth_rate, mac) = frequencies(case, tol=tol)
-    values = {
+    row |= {
         "status": cycle.status.value,
         "growth_rate": cycle.growth_rate,
         "stick_slip_frequency": cycle.releases / cycle.period if cycle.releases else math.nan,
@@ -117,7 +104,7 @@ def _at_speed(case: Parameters, tol: float) -> tuple[dict[str, Any], str]:
         "mac": mac,
         "near_motion": may_be_near(cycle),
     }
-    return values, message_of(cycle)
+    yield message_of(cycle)
 
 
 # ---- Crossings
@@ -138,7 +125,7 @@ class Rates(NamedTuple):
         return "not_near" if self.away[speeds].any() else "no_cycle"
 
 
-def _crossings(along: xr.Dataset) -> Iterator[dict[str, Any]]:
+def _crossings(along: Dataset) -> Iterator[Row]:
     """All crossings over the speed, mode by mode, with n f_s, (n + 1/2) f_s and l f_Omega, l up to that of
     modes."""
     away = along["near_motion"] == 0
@@ -207,7 +194,7 @@ def _frequency_of(speeds: Array, sliding: Array, on_cycle: Array, mac: Array) ->
     return sliding + np.interp(speeds, speeds[known], more[known])
 
 
-def _effect_of(detuning: Array, index: int, rates: Rates) -> dict[str, Any]:
+def _effect_of(detuning: Array, index: int, rates: Rates) -> Row:
     """The effect of a crossing after the speed of an index, as far as it is known, by the growth
     rates in the window, compared with those at its ends."""
     growth, leading, _, jumps = rates

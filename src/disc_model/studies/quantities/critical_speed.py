@@ -5,19 +5,28 @@ be several.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from itertools import pairwise
 from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
-import xarray as xr
 from pydantic import AfterValidator, BeforeValidator, Field
+from xarray import Dataset
 
 from disc_model.data.variables import value_with_unit
 from disc_model.parameters import Parameters
-from disc_model.studies.quantity import BETWEEN, Range, found, listed, quantity, values_between
-from disc_model.units import Finite, Seconds, Speed, Tolerance, Unit
+from disc_model.studies.quantity import (
+    BETWEEN,
+    Range,
+    Row,
+    Speeds,
+    found,
+    listed,
+    quantity,
+    values_between,
+)
+from disc_model.units import Seconds, Speed, Tolerance, Unit
 
 if TYPE_CHECKING:
     from disc_model.stability.follower import OutcomeResult
@@ -26,11 +35,12 @@ MOST_CROSSINGS = 12
 Horizons = Annotated[
     tuple[Seconds, ...],
     BeforeValidator(
-        lambda given: given if isinstance(given, Sequence) else np.atleast_1d(given).tolist(),
+        lambda given: [given] if np.ndim(given) == 0 else given,
         json_schema_input_type=list[Seconds] | Seconds,
     ),
     AfterValidator(lambda horizons: tuple(sorted(set(horizons)))),
     Field(min_length=1, validate_default=True),
+    Unit("s"),
 ]
 """A horizon, or several."""
 
@@ -54,13 +64,13 @@ def _is_multiple(options: Any) -> bool:
 )
 def critical_speed(
     case: Parameters,
-    bounds: Annotated[tuple[Finite, Finite], Unit("rad/s")] = (5.0, 30.0),
+    bounds: Speeds = (5.0, 30.0),
     horizon: Horizons = 1000.0,  # type: ignore[assignment]
     *,
     step: Speed = 1.0,
     precision: Speed = 0.1,
     tol: Tolerance = 1e-10,
-) -> xr.Dataset:
+) -> Dataset:
     """The lowest speed of a scan with separation within a horizon, and all speeds where separation begins or
     ends, by bisection.
 
@@ -83,11 +93,6 @@ def critical_speed(
         next lower one computed, which is lower by `precision`; where it was lost at the lowest speed already,
         `at_lower_bound` is true. `message` states which horizons have no critical speed, or one at the lower bound.
 
-    Raises
-    ------
-    ParameterError
-        If an argument breaks a rule; the message names the argument, its value and the rule.
-
     Examples
     --------
     >>> import disc_model as dm
@@ -101,54 +106,26 @@ def critical_speed(
     count = len(values_between(bounds, step))
     # all speeds that may be computed, a precision apart
     lattice = Range(start=bounds[0], stop=bounds[1], count=1 + (count - 1) * ratio).values
+    scanned = range(0, len(lattice), ratio)
     motions: dict[int, OutcomeResult] = {}
 
-    def look(places: Iterable[int]) -> dict[int, float]:
-        """Follow motions from the static start up to the longest horizon; returns all first separations."""
+    def look(places: Iterable[int]) -> None:
+        """Follow motions from the static start up to the longest horizon."""
         for i in places:
             there = case.replace(Omega=lattice[i])
             result = find_outcome(there, horizon[-1], tol=tol, compared_with=horizon)
             # return maps would take megabytes each for a disc of many modes
             motions[i] = replace(result, near=None)
-        return {i: _first_separation(motions[i]) for i in sorted(motions)}
 
-    scanned = range(0, len(lattice), ratio)
-    lost = look(scanned)
+    look(scanned)
     for time in horizon:
         # every interval over which separation within the horizon begins or ends is halved, down to the lattice
-        while middles := [(a + b) // 2 for a, b, _ in _changes(lost, time) if b - a > 1]:
-            lost = look(middles)
-    remarks = []
-    for i, result in motions.items():
-        if result.status != "ok":
-            remarks.append(f"{value_with_unit('Omega', lattice[i])}: {result.message}")
-    rows = []
-    without: list[str] = []
-    at_bound: list[str] = []
-    for time in horizon:
-        # the lowest speed that separates; an unknown speed hides those above it
-        first = next((i for i in lost if not lost[i] > time), None)
-        lowest = math.nan if first is None or math.isnan(lost[first]) else lattice[first]
-        if math.isnan(lowest):
-            without.append(f"{time:g}")
-        elif first == 0:
-            at_bound.append(f"{time:g}")
-        changes = _changes(lost, time)
-        row = {
-            "critical_speed": lowest,
-            "n_crossings": len(changes),
-            "crossing": [lattice[b] for _, b, _ in changes],
-            "crossing_kind": [kind for _, _, kind in changes],
-        }
-        rows.append(row)
-    if without:
-        scan = f"at {count} speeds from {bounds[0]:g} to {bounds[1]:g} rad/s"
-        remarks.append(f"no separation within {', '.join(without)} s {scan}")
-    if at_bound:
-        bound = f"at the lower bound, {bounds[0]:g} rad/s"
-        remarks.append(f"contact is already lost within {', '.join(at_bound)} s {bound}")
-    values: dict[str, Any] = {
-        "status": next((x.status for x in motions.values() if x.status != "ok"), "ok"),
+        while middles := [(a + b) // 2 for a, b in _changes(_lost(motions, time)) if b - a > 1]:
+            look(middles)
+    rows = [_crossings(_lost(motions, time), lattice) for time in horizon]
+    wrong = {i: result for i, result in motions.items() if result.status != "ok"}
+    values: Row = {
+        "status": next((result.status for result in wrong.values()), "ok"),
         "scan_outcome": [motions[i].word for i in scanned],
         "scan_first_separation": [motions[i].timed_separation for i in scanned],
         "scan_status": [motions[i].status for i in scanned],
@@ -156,25 +133,54 @@ def critical_speed(
         "simulated_time": sum(result.simulated for result in motions.values()),
         **listed(rows),
     }
+    remarks = [f"{value_with_unit('Omega', lattice[i])}: {x.message}" for i, x in wrong.items()]
+    scan = f"at {count} speeds from {bounds[0]:g} to {bounds[1]:g} rad/s"
+    remarks += _remarks(horizon, values["critical_speed"], bounds[0], scan)
     own = {"horizon": horizon, "crossing_number": range(MOST_CROSSINGS)}
     message = "; ".join(remarks)
     answer = found("critical_speed", values, message, **own, scan_Omega=lattice[::ratio])
     return answer.assign(at_lower_bound=answer["critical_speed"] <= bounds[0])
 
 
-def _first_separation(result: OutcomeResult) -> float:
-    """Time of the first separation, s: infinite if there is none, nan if that is not known."""
-    if math.isnan(result.first_separation) and result.status == "ok":
-        return math.inf
-    return result.first_separation
+def _remarks(
+    horizons: Sequence[float], speeds: Sequence[float], lowest: float, scan: str
+) -> Iterator[str]:
+    """Yield which horizons have no critical speed, or one at the lower bound."""
+    by_horizon = [*zip(horizons, speeds, strict=True)]
+    without = [f"{time:g}" for time, speed in by_horizon if math.isnan(speed)]
+    if without:
+        yield f"no separation within {', '.join(without)} s {scan}"
+    at_bound = [f"{time:g}" for time, speed in by_horizon if speed <= lowest]
+    if at_bound:
+        bound = f"at the lower bound, {lowest:g} rad/s"
+        yield f"contact is already lost within {', '.join(at_bound)} s {bound}"
 
 
-def _changes(lost: Mapping[int, float], horizon: float) -> list[tuple[int, int, str]]:
-    """Pairs of neighbours on the lattice of which only one separates within the horizon, and whether it begins
-    or ends there, from first separations (s); one that is unknown is in none."""
-    changes = []
-    for a, b in pairwise(lost):
-        decided = not math.isnan(lost[a] + lost[b])
-        if decided and (lost[a] <= horizon) != (lost[b] <= horizon):
-            changes.append((a, b, "begins" if lost[b] <= horizon else "ends"))
-    return changes
+def _lost(motions: Mapping[int, OutcomeResult], horizon: float) -> dict[int, bool | None]:
+    """Whether motions along the lattice have lost contact within a horizon; None where that is unknown."""
+    lost: dict[int, bool | None] = {}
+    for i, result in sorted(motions.items()):
+        lost[i] = result.first_separation <= horizon
+        if math.isnan(result.first_separation) and result.status != "ok":
+            lost[i] = None
+    return lost
+
+
+def _changes(lost: Mapping[int, bool | None]) -> list[tuple[int, int]]:
+    """Pairs of neighbours on the lattice of which only one has lost contact; one that is unknown is in none."""
+    return [(a, b) for a, b in pairwise(lost) if {lost[a], lost[b]} == {False, True}]
+
+
+def _crossings(lost: Mapping[int, bool | None], lattice: Sequence[float]) -> Row:
+    """Columns of a horizon. An unknown speed hides those above it."""
+    changes = _changes(lost)
+    first = next((i for i in lost if lost[i] is not False), -1)
+    row: Row = {
+        "n_crossings": len(changes),
+        "crossing": [lattice[b] for _, b in changes],
+        "crossing_kind": [("ends", "begins")[bool(lost[b])] for _, b in changes],
+        "critical_speed": math.nan,
+    }
+    if lost.get(first):
+        row["critical_speed"] = lattice[first]
+    return row

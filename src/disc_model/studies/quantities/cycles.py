@@ -7,13 +7,13 @@ import math
 from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
-import xarray as xr
 from pydantic import Field
+from xarray import Dataset
 
 from disc_model.data.variables import message_of
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Start
-from disc_model.studies.quantity import STATIC, Free, Motion, Values, found, listed, quantity
+from disc_model.studies.quantity import STATIC, Free, Motion, Row, Values, found, listed, quantity
 from disc_model.units import Count, CycleTolerance, Finite, Positive, Real, Seconds, Tolerance, Unit
 
 if TYPE_CHECKING:
@@ -34,23 +34,12 @@ def _on_cycle(case: Parameters, *, tol: float) -> State:
 
 
 @quantity(points_per_job=1000, motion=Motion(7, CYCLE, _on_cycle))
-def floquet(case: Parameters, *, tol: CycleTolerance = 1e-12) -> xr.Dataset:
+def floquet(case: Parameters, *, tol: CycleTolerance = 1e-12) -> Dataset:
     """The stick-slip cycle near the static start and its growth rate, by Floquet multipliers.
 
     Parameters
     ----------
     tol : tolerance of cycles: relative residual of the return map
-
-    Returns
-    -------
-    xarray.Dataset
-        The variables of a study of this quantity, with words as words; attributes are the case (`parameters`), the
-        `options`, and in `message` what went wrong or is missing
-
-    Raises
-    ------
-    ParameterError
-        If an argument breaks a rule; the message names the argument, its value and the rule.
     """
     from disc_model.stability.cycle import find_cycle
 
@@ -87,7 +76,7 @@ def lyapunov_exponents(
     duration: Seconds,
     start: Start = STATIC,
     tol: Tolerance = 1e-10,
-) -> xr.Dataset:
+) -> Dataset:
     """The two largest Lyapunov exponents of the motion across all its events, without the one along it, which
     is zero.
 
@@ -97,17 +86,6 @@ def lyapunov_exponents(
     duration : time over which rates are averaged
     start : start of the motion
     tol : tolerance of simulations: error of event times after a second of motion
-
-    Returns
-    -------
-    xarray.Dataset
-        The variables of a study of this quantity, with words as words; attributes are the case (`parameters`), the
-        `options`, and in `message` what went wrong or is missing
-
-    Raises
-    ------
-    ParameterError
-        If an argument breaks a rule; the message names the argument, its value and the rule.
     """
     from disc_model.stability.lyapunov import lyapunov_exponents as exponents_of
 
@@ -155,7 +133,7 @@ def neutral_curves(
     max_step: Positive = 0.1,
     max_points: Annotated[Count, Field(ge=2, le=10_000)] = 200,
     tol: CycleTolerance = 1e-12,
-) -> xr.Dataset:
+) -> Dataset:
     """Neutral curves and folds of the stick-slip cycle in the plane of two parameters, by continuation.
 
     Parameters
@@ -169,17 +147,6 @@ def neutral_curves(
     max_step : arclength of the longest step along a curve
     max_points : most points of a curve, in each direction
     tol : tolerance of cycles: relative residual of the return map
-
-    Returns
-    -------
-    xarray.Dataset
-        The variables of a study of this quantity, with words as words; attributes are the case (`parameters`), the
-        `options`, and in `message` what went wrong or is missing
-
-    Raises
-    ------
-    ParameterError
-        If an argument breaks a rule; the message names the argument, its value and the rule.
     """
     from disc_model.stability.continuation import neutral_curves as curves_of
 
@@ -208,7 +175,7 @@ def neutral_curves(
         "n_continuation_failures": len(curves.failures),
         **listed(rows),
     }
-    own: dict[str, Any] = {"curve": range(MOST_CURVES), "curve_point": range(2 * max_points)}
+    own: Row = {"curve": range(MOST_CURVES), "curve_point": range(2 * max_points)}
     return found("neutral_curves", values, **own)
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import asdict
-from typing import Annotated, Any
 
 import numpy as np
 import xarray as xr
@@ -12,8 +11,8 @@ import xarray as xr
 from disc_model.data.variables import OF_QUANTITIES, WORDS, value_with_unit
 from disc_model.display import counted
 from disc_model.parameters import Parameters
-from disc_model.studies.quantity import BETWEEN, Rules, found, quantity, values_between
-from disc_model.units import Finite, Seconds, Speed, Tolerance, Unit
+from disc_model.studies.quantity import BETWEEN, Row, Rules, Speeds, found, quantity, values_between
+from disc_model.units import Seconds, Speed, Tolerance
 
 DIRECTIONS = ("up", "down")
 STAYS: Rules = (
@@ -31,7 +30,7 @@ SETTLED = WORDS["answers"].index("settled")
 @quantity(points_per_job=3, own=("Omega",), rules=(*BETWEEN, *STAYS, WITHIN))
 def hysteresis(
     case: Parameters,
-    bounds: Annotated[tuple[Finite, Finite], Unit("rad/s")],
+    bounds: Speeds,
     dwell: Seconds,
     *,
     step: Speed = 1.0,
@@ -59,11 +58,6 @@ def hysteresis(
         whether motions in contact had not settled (`sweep_settled`): the onset may then be lower. `separation_rate`
         (1/s), `stay` (s) and others by direction and speed.
 
-    Raises
-    ------
-    ParameterError
-        If an argument breaks a rule; the message names the argument, its value and the rule.
-
     Examples
     --------
     >>> import disc_model as dm
@@ -75,15 +69,13 @@ def hysteresis(
 
     swept = values_between(bounds, step)
     columns = OF_QUANTITIES["hysteresis"]["columns"]
-    values: dict[str, Any] = {
-        variable: column.empty((2, len(swept))) for variable, column in columns.items()
-    }
+    values: Row = {variable: column.empty((2, len(swept))) for variable, column in columns.items()}
     status = "ok"
     failure = ""
     for place, result, late, reached in sweep(
         case, "Omega", swept, dwell, max_dwell, evaluation_time, tol
     ):
-        stay: dict[str, Any] = {
+        stay: Row = {
             "sweep_settled": WORDS["answers"].index(reached.settling.answer),
             "stay": reached.stay,
         }
@@ -101,7 +93,7 @@ def hysteresis(
     return found("hysteresis", values, message, direction=DIRECTIONS, sweep_Omega=swept)
 
 
-def _edges(swept: Sequence[float], values: dict[str, Any]) -> tuple[float, float]:
+def _edges(swept: Sequence[float], values: Row) -> tuple[float, float]:
     """Values at which separation sets in on the way up, and to which it persists on the way down, nan where
     they are not known: each lies beside a value at which contact is kept."""
     rising, falling = values["separation_rate"] > 0
@@ -115,7 +107,7 @@ def _edges(swept: Sequence[float], values: dict[str, Any]) -> tuple[float, float
     return onset, offset
 
 
-def _reasons(swept: Sequence[float], values: dict[str, Any]) -> Iterator[str]:
+def _reasons(swept: Sequence[float], values: Row) -> Iterator[str]:
     """Why a sweep up and down has no onset or no end of separation, and where contact may yet be lost."""
     lowest, highest = (value_with_unit("Omega", value) for value in (swept[0], swept[-1]))
     apart = values["separation_rate"] > 0

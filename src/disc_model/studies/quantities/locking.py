@@ -4,15 +4,15 @@ strongly it is held there."""
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
-import xarray as xr
 from pydantic import Field
+from xarray import Dataset
 
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Start
-from disc_model.studies.quantity import STATIC, found, quantity
+from disc_model.studies.quantity import STATIC, Row, found, quantity
 from disc_model.units import Count, Seconds, Tolerance
 
 if TYPE_CHECKING:
@@ -41,7 +41,7 @@ def locking(
     probes: Annotated[Count, Field(ge=0, le=10_000)] = 0,
     start: Start = STATIC,
     tol: Tolerance = 1e-10,
-) -> xr.Dataset:
+) -> Dataset:
     """Number of releases of stick after which a motion that separates repeats, mean number of separations between
     them, and multipliers of the repeating motion.
 
@@ -55,17 +55,6 @@ def locking(
     probes : number of places at which the map of release phases is computed
     start : start of the motion
     tol : tolerance of simulations: error of event times after a second of motion
-
-    Returns
-    -------
-    xarray.Dataset
-        The variables of a study of this quantity, with words as words; attributes are the case (`parameters`), the
-        `options`, and in `message` what went wrong or is missing
-
-    Raises
-    ------
-    ParameterError
-        If an argument breaks a rule; the message names the argument, its value and the rule.
 
     Examples
     --------
@@ -104,7 +93,7 @@ def locking(
     return found("locking", values, message, release=range(RELEASES), probe=range(probes))
 
 
-def _read(run: Result) -> tuple[dict[str, Any], Lock | None]:
+def _read(run: Result) -> tuple[Row, Lock | None]:
     """What the record of a motion shows, and how it repeats, if it does."""
     from disc_model.stability.locking import lock_of, releases_of
 
@@ -118,7 +107,7 @@ def _read(run: Result) -> tuple[dict[str, Any], Lock | None]:
             motion = "without_stick"
         return {"motion": motion}, None
     lock = lock_of(taken)
-    values: dict[str, Any] = {
+    values: Row = {
         "motion": "undecided",
         "separations_per_release": float(np.mean(taken.vibrations)),
         "separation_interval": taken.vibration,
@@ -130,7 +119,7 @@ def _read(run: Result) -> tuple[dict[str, Any], Lock | None]:
     return values, lock
 
 
-def _proof(run: Result, lock: Lock) -> dict[str, Any] | None:
+def _proof(run: Result, lock: Lock) -> Row | None:
     """Columns of the stable cycle that a motion is on; None without one."""
     from disc_model.stability.cycle import multipliers
     from disc_model.stability.locking import locked_cycle, releases_of
@@ -153,7 +142,7 @@ def _proof(run: Result, lock: Lock) -> dict[str, Any] | None:
     }
 
 
-def _columns_of(lock: Lock) -> dict[str, Any]:
+def _columns_of(lock: Lock) -> Row:
     """Columns of the period of a motion that repeats."""
     return {
         "separations_per_release": lock.vibrations / lock.releases,

@@ -7,12 +7,12 @@ from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import xarray as xr
+from xarray import Dataset
 
 from disc_model.data.variables import Outcome
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Start
-from disc_model.studies.quantity import COME_TO, STATIC, Motion, found, quantity
+from disc_model.studies.quantity import COME_TO, STATIC, Motion, Row, found, quantity
 from disc_model.units import Seconds, Tolerance
 
 if TYPE_CHECKING:
@@ -82,7 +82,7 @@ def outcome(
     after_separation: Seconds = 5.0,
     early_end: bool = True,
     tol: Tolerance = 1e-10,
-) -> xr.Dataset:
+) -> Dataset:
     """Long-term behaviour within a horizon, such as "stick_slip" or "separation", with ranges and phases
     late in the run.
 
@@ -102,11 +102,6 @@ def outcome(
         Of stable cycles in contact, "stick_slip" are that of `floquet`, and one whose release differs from the first
         release of the static start by at most a tenth of the static deflection; "other_cycle" are all others
 
-    Raises
-    ------
-    ParameterError
-        If an argument breaks a rule; the message names the argument, its value and the rule.
-
     Examples
     --------
     >>> import disc_model as dm
@@ -119,7 +114,7 @@ def outcome(
     )
     last = reached if result is None else result
     complete = last.status.complete
-    values: dict[str, Any] = {
+    values: Row = {
         "status": "ok" if complete else last.status.value,
         "outcome": reached.word,
         "first_separation": reached.timed_separation,

@@ -6,11 +6,11 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Annotated, Any
 
-import xarray as xr
+from xarray import Dataset
 
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Ramp
-from disc_model.studies.quantity import Values, found, listed, quantity
+from disc_model.studies.quantity import Row, Values, found, listed, quantity
 from disc_model.units import Seconds, Speed, Tolerance, Unit
 
 if TYPE_CHECKING:
@@ -28,11 +28,11 @@ if TYPE_CHECKING:
 def ramps(
     case: Parameters,
     *,
-    bounds: tuple[Speed, Speed],
+    bounds: Annotated[tuple[Speed, Speed], Unit("rad/s")],
     rates: Annotated[Values, Unit("rad/s^2")],
     dwell: Seconds = 60.0,
     tol: Tolerance = 1e-10,
-) -> xr.Dataset:
+) -> Dataset:
     """Slow ramps of the speed, up from the static start and down again, once for each rate.
 
     Parameters
@@ -41,17 +41,6 @@ def ramps(
     rates : rates of the ramps, a run each
     dwell : time at the highest speed, and at the lowest one in the end
     tol : tolerance of simulations: error of event times after a second of motion
-
-    Returns
-    -------
-    xarray.Dataset
-        The variables of a study of this quantity, with words as words; attributes are the case (`parameters`), the
-        `options`, and in `message` what went wrong or is missing
-
-    Raises
-    ------
-    ParameterError
-        If an argument breaks a rule; the message names the argument, its value and the rule.
 
     Examples
     --------
@@ -66,7 +55,7 @@ def ramps(
 
 def _run(
     case: Parameters, bounds: tuple[float, float], rate: float, dwell: float, tol: float
-) -> dict[str, Any]:
+) -> Row:
     """Columns of one run, with a dwell at both speeds; raises `SimulationError`."""
     from disc_model.engine.record import LOSS_OF_CONTACT
     from disc_model.simulation.api import simulate

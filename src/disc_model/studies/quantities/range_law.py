@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import math
 from functools import partial
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
-import xarray as xr
+from xarray import Dataset
 
 from disc_model.data.variables import PHASES
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Window
-from disc_model.studies.quantity import found, listed, quantity
+from disc_model.studies.quantity import Row, found, listed, quantity
 from disc_model.units import Finite, Seconds, Tolerance, Unit
 
 if TYPE_CHECKING:
@@ -45,7 +45,7 @@ def range_law(
     blow: Annotated[Finite, Unit("m/s")] = 0.0,
     in_contact: bool = False,
     tol: Tolerance = 1e-10,
-) -> xr.Dataset:
+) -> Dataset:
     """Range of the slider's height where contact is lost again and again, from the static start and from a
     displaced one, and the range `disc_model.pinned_range` at the frequency of its vibration.
 
@@ -59,17 +59,6 @@ def range_law(
     blow : upward velocity of the second start, slider and disc, in place of its displacement, unless 0
     in_contact : whether motions that keep contact are measured as well
     tol : tolerance of simulations: error of event times after a second of motion
-
-    Returns
-    -------
-    xarray.Dataset
-        The variables of a study of this quantity, with words as words; attributes are the case (`parameters`), the
-        `options`, and in `message` what went wrong or is missing
-
-    Raises
-    ------
-    ParameterError
-        If an argument breaks a rule; the message names the argument, its value and the rule.
 
     Examples
     --------
@@ -102,7 +91,7 @@ def range_law(
     return found("range_law", {"status": "ok", **listed(rows)}, begin=("static", "displaced"))
 
 
-def _measure(run: Result) -> dict[str, Any]:
+def _measure(run: Result) -> Row:
     """Columns of a stretch of motion."""
     from disc_model.analysis.classify import separation_location
     from disc_model.analysis.contact_loss import excess_of_flights, pinned_range

@@ -8,16 +8,17 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-import xarray as xr
+from xarray import Dataset
 
 from disc_model.data.variables import STABLE_CYCLES, Outcome
 from disc_model.parameters import Parameters
-from disc_model.studies.quantity import COME_TO, STATIC, Motion, found, quantity
+from disc_model.studies.quantity import COME_TO, STATIC, Motion, Row, found, quantity
 from disc_model.units import Finite, Seconds, Tolerance
 
 if TYPE_CHECKING:
     from disc_model.simulation.states import State
     from disc_model.stability.cycle import FloquetResult
+    from disc_model.stability.follower import NearCycle, OutcomeResult
 
 
 def _come_to(case: Parameters, *, horizon: float, tol: float, **_: Any) -> State:
@@ -34,7 +35,7 @@ def regions(
     *,
     timed: tuple[dict[str, Finite], ...] = (),
     tol: Tolerance = 1e-10,
-) -> xr.Dataset:
+) -> Dataset:
     """Outcome of the static start, as in maps of many points, and the cycle that it follows.
 
     Slow departures from cycles are extrapolated, which halves the time; separations after them are not timed.
@@ -44,17 +45,6 @@ def regions(
     horizon : longest simulated time
     timed : cases, such as {N: 200, Omega: 20}, of which nothing is extrapolated
     tol : tolerance of simulations: error of event times after a second of motion
-
-    Returns
-    -------
-    xarray.Dataset
-        The variables of a study of this quantity, with words as words; attributes are the case (`parameters`), the
-        `options`, and in `message` what went wrong or is missing
-
-    Raises
-    ------
-    ParameterError
-        If an argument breaks a rule; the message names the argument, its value and the rule.
 
     Examples
     --------
@@ -68,7 +58,7 @@ def regions(
     start = cycle_of_static_start(case)
     near = start if isinstance(start, NearCycle) else None
     followed = near if near and near.follows_cycle else None
-    values: dict[str, Any] = {"status": "ok", "method": "multipliers"}
+    values: Row = {"status": "ok", "method": "multipliers"}
     message = ""
     if followed and followed.cycle.stable:
         values["outcome"] = Outcome.STICK_SLIP
@@ -78,30 +68,43 @@ def regions(
         is_timed = any(place.items() <= case.numbers.items() for place in timed)
         compared_with = () if is_timed else (horizon,)
         result = find_outcome(case, horizon, tol=tol, near=start, compared_with=compared_with)
-        method = "simulation" if result.simulated else "multipliers"
-        values |= {
-            "method": "extrapolation" if result.extrapolated else method,
-            "status": result.status,
-            "outcome": result.word,
-            "simulated_time": result.simulated,
-            "first_separation": result.timed_separation,
-        }
+        values |= _followed(result)
         message = result.message
         if followed is None or result.outcome is Outcome.STICK_SLIP:
             followed = result.near
     if followed is not None:
         values |= _columns_of(followed.cycle)
-    elif values["outcome"] == Outcome.STEADY_SLIDING:
-        values["cycle"] = "steady_sliding"
-    elif isinstance(start, NearCycle):
-        values["cycle"] = "nearby_only"
     else:
-        of_search = (*STABLE_CYCLES, "unstable_sliding")
-        values["cycle"] = start.motion if start.motion in of_search else "no_cycle"
+        values["cycle"] = _without_cycle(start, values["outcome"])
     return found("regions", values, message)
 
 
-def _columns_of(cycle: FloquetResult) -> dict[str, Any]:
+def _followed(result: OutcomeResult) -> Row:
+    """The columns of a motion that was followed."""
+    method = "multipliers"
+    if result.extrapolated:
+        method = "extrapolation"
+    elif result.simulated:
+        method = "simulation"
+    return {
+        "method": method,
+        "status": result.status,
+        "outcome": result.word,
+        "simulated_time": result.simulated,
+        "first_separation": result.timed_separation,
+    }
+
+
+def _without_cycle(start: FloquetResult | NearCycle, outcome: str) -> str:
+    """What there is in place of a cycle that the static start follows, by what was found near it."""
+    if outcome == Outcome.STEADY_SLIDING:
+        return "steady_sliding"
+    motion = getattr(start, "motion", "nearby_only")
+    known = ("nearby_only", *STABLE_CYCLES, "unstable_sliding")
+    return motion if motion in known else "no_cycle"
+
+
+def _columns_of(cycle: FloquetResult) -> Row:
     """The columns of the cycle that a static start follows."""
     from disc_model.analysis.spectra import modes_at_rest
 

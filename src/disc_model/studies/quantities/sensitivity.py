@@ -7,19 +7,19 @@ unstable at the upper.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Annotated, Any, Literal
 
 import numpy as np
-import xarray as xr
 from pydantic import Field
+from xarray import Dataset
 
 from disc_model.analysis.classify import share
 from disc_model.arrays import Array
 from disc_model.data.variables import OF_QUANTITIES, with_advice
 from disc_model.errors import require
 from disc_model.parameters import Parameters
-from disc_model.studies.quantity import NUMERICAL, Ruled, found, listed, quantity, with_ends
+from disc_model.studies.quantity import Row, Ruled, attempted, found, listed, quantity, with_ends
 from disc_model.units import Count, CycleTolerance, Finite, Seconds, Unit, is_number
 
 UNSTABLE = ("unstable", "no_cycle", "separates", "unstable_sliding")
@@ -59,7 +59,7 @@ def sensitivity(
     simulated_samples: Annotated[Count, Field(ge=0)] = 0,
     horizon: Seconds = 500.0,
     tol: CycleTolerance = 1e-12,
-) -> xr.Dataset:
+) -> Dataset:
     """The stick-slip cycle at samples of uncertain parameters, and the outcome of the static start: how likely is
     instability? Slow departures from cycles are extrapolated; separations after them are not timed.
 
@@ -73,17 +73,6 @@ def sensitivity(
     horizon : longest simulated time of a sample
     tol : tolerance of cycles: relative residual of the return map
 
-    Returns
-    -------
-    xarray.Dataset
-        The variables of a study of this quantity, with words as words; attributes are the case (`parameters`), the
-        `options`, and in `message` what went wrong or is missing
-
-    Raises
-    ------
-    ParameterError
-        If an argument breaks a rule; the message names the argument, its value and the rule.
-
     Examples
     --------
     >>> import disc_model as dm
@@ -93,23 +82,23 @@ def sensitivity(
     ['no_cycle', 'stable', 'stable', 'unstable']
     """
     names = sorted(distributions)
-    rows = []
-    messages = []
-    for i, values in enumerate(_draws(case, distributions, samples, seed)):
-        row: dict[str, Any] = {"status": "ok", "parameter_values": values, "cycle": FAILED}
-        row["outcome"] = FAILED if i < simulated_samples else "not_simulated"
-        remarks = []
-        try:
-            sample = case.replace(**dict(zip(names, values.tolist(), strict=True)))
-            remarks.append(evaluate_cycle(sample, tol, row))
-            if i < simulated_samples:
-                remarks.append(_outcome(sample, horizon, row))
-        except NUMERICAL as error:
-            row["status"] = FAILED
-            remarks.append(f"{type(error).__name__}: {error}")
-        rows.append(row)
-        messages.append("; ".join(dict.fromkeys(filter(None, remarks))))
-    columns: dict[str, Any] = listed(rows)
+    rows: list[Row] = []
+    for values in _draws(case, distributions, samples, seed):
+        rows.append(
+            {"status": "ok", "parameter_values": values, "cycle": FAILED, "outcome": FAILED}
+        )
+    for row in rows[simulated_samples:]:
+        row["outcome"] = "not_simulated"
+
+    def fill(i: int, row: Row) -> Iterator[str]:
+        own = dict(zip(names, row["parameter_values"].tolist(), strict=True))
+        sample = case.replace(**own)
+        yield evaluate_cycle(sample, tol, row)
+        if i < simulated_samples:
+            yield _outcome(sample, horizon, row)
+
+    messages = attempted(rows, fill)
+    columns: Row = listed(rows)
     for words, hits, kind, asked in (
         (columns["cycle"], UNSTABLE, "cycles", "unstable"),
         (columns["outcome"][:simulated_samples], ("separation",), "outcomes", "separation"),
@@ -119,7 +108,7 @@ def sensitivity(
         columns |= {f"n_known_{kind}": known, f"n_failed_{kind}": lost}
         probability = share(sum(word in hits for word in words), known, lost)
         columns |= with_ends(f"probability_{asked}", probability)
-    own: dict[str, Any] = {"sample": range(samples), "parameter": names}
+    own: Row = {"sample": range(samples), "parameter": names}
     return found("sensitivity", columns, messages, **own)
 
 
@@ -142,7 +131,7 @@ def _draws(case: Parameters, distributions: Mapping[str, Any], samples: int, see
     return np.transpose(columns)
 
 
-def evaluate_cycle(case: Parameters, tol: float, row: dict[str, Any]) -> str:
+def evaluate_cycle(case: Parameters, tol: float, row: Row) -> str:
     """Add the cycle of a sample; returns a message."""
     from disc_model.stability.cycle import find_cycle
 
@@ -154,7 +143,7 @@ def evaluate_cycle(case: Parameters, tol: float, row: dict[str, Any]) -> str:
     return ""
 
 
-def _outcome(case: Parameters, horizon: float, row: dict[str, Any]) -> str:
+def _outcome(case: Parameters, horizon: float, row: Row) -> str:
     """Add what the static start of a sample comes to; returns a message."""
     from disc_model.stability.follower import find_outcome
 

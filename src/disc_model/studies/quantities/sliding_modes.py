@@ -3,16 +3,34 @@
 from __future__ import annotations
 
 import math
-from typing import Annotated, Any
+from typing import Annotated
 
 import numpy as np
-import xarray as xr
 from pydantic import Field
+from xarray import Dataset
 
 from disc_model.data.variables import OF_QUANTITIES, value_with_unit
 from disc_model.parameters import Parameters
-from disc_model.studies.quantity import BETWEEN, Free, found, listed, quantity, values_between
-from disc_model.units import Count, Finite, Positive, Unit
+from disc_model.studies.quantity import (
+    BETWEEN,
+    Bounds,
+    Free,
+    Step,
+    found,
+    listed,
+    quantity,
+    values_between,
+)
+from disc_model.units import Count
+
+OF_MODES = {
+    "frequency": "frequency",
+    "mode_growth_rate": "growth_rate",
+    "damping_ratio": "damping_ratio",
+    "diameters": "diameters",
+    "forward_wave_fraction": "forward",
+}
+"""Columns of the modes, and what these numbers are of each."""
 
 
 @quantity(points_per_job=60, own=("name",), rules=BETWEEN)
@@ -20,10 +38,10 @@ def sliding_modes(
     case: Parameters,
     *,
     name: Free = "Omega",
-    bounds: Annotated[tuple[Finite, Finite], Unit(of="name")],
-    step: Annotated[Positive, Unit(of="name")],
+    bounds: Bounds,
+    step: Step,
     modes: Annotated[Count, Field(ge=1, le=2000)] = 24,
-) -> xr.Dataset:
+) -> Dataset:
     """Frequencies, growth rates and damping of the modes of steady sliding along one parameter, each of
     which keeps its number.
 
@@ -33,17 +51,6 @@ def sliding_modes(
     bounds : its least and greatest value
     step : between its values
     modes : room for that many modes, numbered by frequency at the first value
-
-    Returns
-    -------
-    xarray.Dataset
-        The variables of a study of this quantity, with words as words; attributes are the case (`parameters`), the
-        `options`, and in `message` what went wrong or is missing
-
-    Raises
-    ------
-    ParameterError
-        If an argument breaks a rule; the message names the argument, its value and the rule.
 
     Examples
     --------
@@ -58,19 +65,14 @@ def sliding_modes(
     cases = [_case_at(case, name, value) for value in values]
     followed = follow_modes(cases)
     n_modes = max(int(numbers.max(initial=-1)) + 1 for _, _, numbers, _ in followed)
-    columns: dict[str, Any] = {}
-    for column, variable in OF_QUANTITIES["sliding_modes"]["columns"].items():
-        if "mode" in variable.dims:
-            columns[column] = variable.empty((len(values), max(n_modes, modes)))
+    table = OF_QUANTITIES["sliding_modes"]["columns"]
+    columns = {x: table[x].empty((len(values), n_modes)) for x in ("mac", *OF_MODES)}
     rows = []
     messages = []
     for i, (sliding, of_value, numbers, mac) in enumerate(followed):
-        columns["frequency"][i, numbers] = of_value.frequency
-        columns["mode_growth_rate"][i, numbers] = of_value.growth_rate
         columns["mac"][i, numbers] = mac
-        columns["damping_ratio"][i, numbers] = of_value.damping_ratio
-        columns["diameters"][i, numbers] = of_value.diameters
-        columns["forward_wave_fraction"][i, numbers] = of_value.forward
+        for column, number in OF_MODES.items():
+            columns[column][i, numbers] = getattr(of_value, number)
         row = {
             "unstable_modes": sliding.growing.size,
             "contact_force": sliding.contact_force,
@@ -80,8 +82,7 @@ def sliding_modes(
         rows.append(row)
         if not sliding.status.exists:
             messages.append(f"{value_with_unit(name, values[i])}: {sliding.message}")
-    shown = {column: array[:, :n_modes] for column, array in columns.items()}
-    answer = {"status": "ok", "n_modes": n_modes, **shown, **listed(rows)}
+    answer = {"status": "ok", "n_modes": n_modes, **columns, **listed(rows)}
     numbered = np.arange(1, modes + 1)
     return found("sliding_modes", answer, "".join(messages[:1]), value=values, mode=numbered)
 
