@@ -13,7 +13,7 @@ from pydantic import Field, field_validator, model_validator
 
 from disc_model.display import counted, frequencies_text
 from disc_model.errors import Check, raise_faults, require
-from disc_model.units import Count, Finite, Positive, Strict, Unit, between, limits_faults
+from disc_model.units import Count, Finite, Natural, Positive, Strict, Unit, between, limits_faults
 
 if TYPE_CHECKING:
     import os
@@ -88,7 +88,7 @@ class Disc(Strict):
     damping_ratio: tuple[Annotated[Finite, Field(ge=0, lt=1)], ...] = Field(
         (), validate_default=True
     )
-    circles: tuple[Annotated[Count, Field(ge=0)], ...] = Field((), validate_default=True)
+    circles: tuple[Natural, ...] = Field((), validate_default=True)
     tangential: tuple[Finite, ...] = ()
     static_compliance: Annotated[Positive, Unit("m/N")] | None = None
     radii: tuple[Annotated[Positive, Unit("m")], ...] = ()
@@ -160,12 +160,14 @@ class Disc(Strict):
         omega = info.data.get("omega", ())
         if column or len(omega) != len(diameters):
             return column
+        if info.field_name == "damping_ratio":
+            return (0.0,) * len(omega)
         circles = [0] * len(omega)
         below: Counter[int] = Counter()  # modes met so far, by their diameters
         for i in sorted(range(len(omega)), key=omega.__getitem__):
             circles[i] = below[diameters[i]]
             below[diameters[i]] += 1
-        return (0.0,) * len(omega) if info.field_name == "damping_ratio" else tuple(circles)
+        return tuple(circles)
 
     def __repr__(self) -> str:
         return f"Disc({counted(len(self.omega), 'mode')}, {frequencies_text(self.omega)})"

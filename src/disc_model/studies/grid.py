@@ -99,15 +99,6 @@ def keeps(points: pd.DataFrame, rules: Sequence[str], beside: Row) -> list[bool]
     return kept.tolist()
 
 
-def thinned(frame: pd.DataFrame, most: int) -> pd.DataFrame:
-    """At most so many values of a dimension, evenly spaced by place and including both ends; words are all
-    kept."""
-    if any(isinstance(value, str) for value in frame.iloc[0]):
-        return frame
-    places = np.linspace(0, len(frame) - 1, min(most, len(frame))).round().astype(int)
-    return frame.iloc[places].reset_index(drop=True)
-
-
 def case_of(base: Row, discs: Row, **own: Any) -> Parameters:
     """A case from the values that do not vary, and from those of a point, discs by the words that stand for
     them; raises `ParameterError`."""

@@ -24,7 +24,7 @@ from disc_model.errors import DiscModelError, Fault, ParameterError, raise_fault
 from disc_model.modal_disc import column_of
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.simulation.case import Start
-from disc_model.units import Count, Finite, Positive, Strict, Unit, arguments_of, must
+from disc_model.units import Finite, Positive, Several, Strict, Unit, arguments_of, must
 
 if TYPE_CHECKING:
     from disc_model.simulation.states import State
@@ -71,7 +71,7 @@ class Range(Ruled):
 
     start: Finite
     stop: Finite
-    count: Annotated[Count, Field(ge=2)] | None = None
+    count: Several | None = None
     step: Positive | None = None
     scale: Literal["linear", "log"] = "linear"  # log: the ratio of neighbours is constant
 
@@ -164,8 +164,8 @@ COME_TO = (
 
 
 class Motion(NamedTuple):
-    """Motions that the explorer stores: of so many values of each axis, what they are, and the state at which
-    they begin, of a case and options."""
+    """Motions that the explorer stores: at how many points of a grid at most, what they are, and the state at
+    which they begin, of a case and options."""
 
     number: int
     text: str

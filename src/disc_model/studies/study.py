@@ -31,11 +31,10 @@ from disc_model.figures.shown import IN_WORDS, factors_of
 from disc_model.parameters import DEFAULTS, Disc, Parameters
 from disc_model.provenance import content_key, physics_hash
 from disc_model.simulation.case import CaseSpec, Name, RecordSpec, SomeParameters, without_null
-from disc_model.studies.grid import Columns, case_of, dimensions, expand, keeps, thinned
+from disc_model.studies.grid import Columns, case_of, dimensions, expand, keeps
 from disc_model.studies.quantity import HOMES, Quantity, quantity_of
-from disc_model.units import Count, Strict, Tolerance
+from disc_model.units import Size, Strict, Tolerance
 
-ALL_MOTIONS = 100  # points of a grid up to which a motion of each is stored, some 3 kB each
 Content = dict[str, Any]
 """What a file, or a part of it, says by key."""
 GRID_KEYS = frozenset({"options", "axes", "zip", "where", "points_per_job", "discs"})
@@ -169,7 +168,7 @@ class Study(Strict):
     where: Annotated[
         tuple[str, ...], BeforeValidator(_several, json_schema_input_type=str | list[str])
     ] = ()  # rules that points keep, such as mu_k <= mu_s
-    points_per_job: Annotated[Count, Field(ge=1)] | None = None
+    points_per_job: Size | None = None
     discs: dict[str, Annotated[Disc, WithJsonSchema({"type": "string"})]] = Field({})
     studies: tuple[str, ...] = ()  # further files of grid studies, * stands for any part of a name
 
@@ -249,12 +248,8 @@ class Study(Strict):
 
     @cached_property
     def _kept(self) -> list[bool]:
-        """Of all points of the grid, which are not left out."""
-        return self._keeps(expand(self.dims))
-
-    def _keeps(self, points: pd.DataFrame) -> list[bool]:
-        """Which points keep the rules, of what varies and of the parameters that do not."""
-        return keeps(points, self.where, {**DEFAULTS, **self._base})
+        """Of all points of the grid, which are not left out, by what varies and by the parameters that do not."""
+        return keeps(expand(self.dims), self.where, {**DEFAULTS, **self._base})
 
     @property
     def _base(self) -> Content:
@@ -319,16 +314,16 @@ class Study(Strict):
 
     @property
     def motions(self) -> dict[str, str]:
-        """The job of the points whose motions are stored, by the name of its file: all of a small grid, few
+        """The job of the points whose motions are stored, by the name of its file: all of a small grid, some
         of a large one; none for some quantities."""
         motion = self.of.motion
         if motion is None:
             return {}
-        most = ALL_MOTIONS if len(self.points) <= ALL_MOTIONS else motion.number
-        chosen = expand({dim: thinned(frame, most) for dim, frame in self.dims.items()})
-        points = chosen[self._keeps(chosen)].to_dict("records")
+        # a regular choice might miss one of few words along a dimension
+        chosen = self.points.sample(min(motion.number, len(self.points)), random_state=1)
+        points = chosen.sort_index().to_dict("records")
         text = _text({**self.layout, "code": physics_hash(), "points": points})
-        return {content_key(text): text} if points else {}
+        return {content_key(text): text}
 
     @property
     def attrs(self) -> dict[str, str]:

@@ -20,8 +20,8 @@ from disc_model.analysis.classify import share
 from disc_model.data.variables import UNKNOWN_OUTCOMES, WORDS
 from disc_model.errors import require
 from disc_model.parameters import Parameters
-from disc_model.studies.quantity import MOST, Row, found, quantity, with_ends
-from disc_model.units import Count, Real, Seconds, Tolerance, Unit
+from disc_model.studies.quantity import Row, found, quantity, with_ends
+from disc_model.units import Natural, Real, Seconds, Size, Tolerance, Unit
 
 if TYPE_CHECKING:
     from disc_model.stability.follower import OutcomeResult
@@ -56,10 +56,10 @@ OF_ATTRACTORS = (
 def basins(
     case: Parameters,
     energies: Annotated[tuple[Energy, ...], Field(min_length=1)] = (0.0,),
-    n_starts: Annotated[Count, Field(ge=1, le=MOST)] = 1,
+    n_starts: Size = 1,
     *,
     horizon: Seconds = 200.0,
-    seed: Annotated[Count, Field(ge=0)] = 1,
+    seed: Natural = 1,
     tol: Tolerance = 1e-10,
 ) -> Dataset:
     """Attractors of a case, the share of starts that comes to each, and the least energy found that leads to

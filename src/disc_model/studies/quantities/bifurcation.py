@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from pydantic import Field
 from xarray import Dataset
 
 from disc_model.analysis.classify import Motion as MotionKind
@@ -14,8 +13,8 @@ from disc_model.data.variables import Outcome
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Start
 from disc_model.stability.follower import FIRST_LEG
-from disc_model.studies.quantity import MOST, STATIC, Motion, Row, found, quantity
-from disc_model.units import Count, Seconds, Tolerance
+from disc_model.studies.quantity import STATIC, Motion, Row, found, quantity
+from disc_model.units import Seconds, Size, Tolerance
 
 if TYPE_CHECKING:
     from disc_model.simulation.result import Result
@@ -39,14 +38,14 @@ def _settled(
             "max_transient={0.max_transient:g} must be >= transient={0.transient:g}",
         ),
     ),
-    motion=Motion(8, "After the transient.", _settled),
+    motion=Motion(100, "After the transient.", _settled),
 )
 def bifurcation(
     case: Parameters,
     *,
     transient: Seconds,
     max_transient: Seconds = 480.0,
-    samples: Annotated[Count, Field(ge=1, le=MOST)] = 50,
+    samples: Size = 50,
     start: Start = STATIC,
     tol: Tolerance = 1e-10,
 ) -> Dataset:

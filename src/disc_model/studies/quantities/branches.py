@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Annotated, Any
 import numpy as np
 from xarray import Dataset
 
-from disc_model.arrays import Array
 from disc_model.data.variables import OF_QUANTITIES, value_with_unit
 from disc_model.display import counted
 from disc_model.parameters import Parameters
@@ -40,7 +39,7 @@ LONGEST = 0.05  # arclength of the longest step along a branch
 MOST_POINTS = 300  # of a branch, in each direction, special points included
 MOST_BRANCHES = 12
 MOST_RELEASES = 4  # of a cycle that is followed
-SAME = np.array([2e-4, 0.4])
+SAME = np.array([[2e-4], [0.4]])
 """Greatest differences of the logarithms of period and range for two cycles of one branch at one value. Periods
 distinguish branches; ranges between points of a steep branch are known roughly."""
 
@@ -200,12 +199,11 @@ def _stretches(branch: Branch, releases: int) -> list[Row]:
 def _passes(row: Row, value: float, period: float, size: float) -> bool:
     """Whether a branch passes a value of the parameter with about this period and this range of the
     slider's height."""
-    beyond: Array = row["value"] - value
+    beyond = row["value"] - value
+    at = np.flatnonzero(beyond[:-1] * beyond[1:] <= 0)
+    widths = np.diff(beyond)[at]
+    shares = -beyond[at] / np.where(widths == 0, 1.0, widths)
     logarithms = np.log([row["period"], row["range"]])
-    for i in np.flatnonzero(beyond[:-1] * beyond[1:] <= 0):
-        width = beyond[i + 1] - beyond[i]
-        share = -beyond[i] / width if width != 0 else 0.0
-        there = logarithms[:, i] + share * (logarithms[:, i + 1] - logarithms[:, i])
-        if np.all(np.abs(there - np.log([period, size])) <= SAME):
-            return True
-    return False
+    there = logarithms[:, at] + shares * np.diff(logarithms)[:, at]
+    apart = np.abs(there - np.log([[period], [size]]))
+    return bool(np.all(apart <= SAME, axis=0).any())

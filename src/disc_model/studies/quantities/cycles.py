@@ -14,7 +14,16 @@ from disc_model.data.variables import message_of
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Start
 from disc_model.studies.quantity import STATIC, Free, Motion, Row, Values, found, listed, quantity
-from disc_model.units import Count, CycleTolerance, Finite, Positive, Real, Seconds, Tolerance, Unit
+from disc_model.units import (
+    CycleTolerance,
+    Finite,
+    Positive,
+    Real,
+    Seconds,
+    Several,
+    Tolerance,
+    Unit,
+)
 
 if TYPE_CHECKING:
     from disc_model.simulation.states import State
@@ -33,7 +42,7 @@ def _on_cycle(case: Parameters, *, tol: float) -> State:
     return find_cycle(case, tol).state or static_start(case)
 
 
-@quantity(points_per_job=1000, motion=Motion(7, CYCLE, _on_cycle))
+@quantity(points_per_job=1000, motion=Motion(100, CYCLE, _on_cycle))
 def floquet(case: Parameters, *, tol: CycleTolerance = 1e-12) -> Dataset:
     """The stick-slip cycle near the static start and its growth rate, by Floquet multipliers.
 
@@ -68,7 +77,7 @@ def _after_transient(
     return state_after(case, start, transient, tol)
 
 
-@quantity(points_per_job=60, motion=Motion(8, "After the transient.", _after_transient))
+@quantity(points_per_job=60, motion=Motion(100, "After the transient.", _after_transient))
 def lyapunov_exponents(
     case: Parameters,
     *,
@@ -129,9 +138,9 @@ def neutral_curves(
     bounds: Annotated[tuple[Finite, Finite], Unit(of="x")],
     lines: Annotated[Values, Unit(of="y")],
     margin: Annotated[Real, Field(ge=0, le=1)] = 0.0,
-    points: Annotated[Count, Field(ge=2, le=10_000)] = 31,
+    points: Several = 31,
     max_step: Positive = 0.1,
-    max_points: Annotated[Count, Field(ge=2, le=10_000)] = 200,
+    max_points: Several = 200,
     tol: CycleTolerance = 1e-12,
 ) -> Dataset:
     """Neutral curves and folds of the stick-slip cycle in the plane of two parameters, by continuation.

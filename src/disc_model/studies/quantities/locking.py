@@ -4,16 +4,15 @@ strongly it is held there."""
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
 import numpy as np
-from pydantic import Field
 from xarray import Dataset
 
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Start
 from disc_model.studies.quantity import STATIC, Row, found, quantity
-from disc_model.units import Count, Seconds, Tolerance
+from disc_model.units import Natural, Seconds, Tolerance
 
 if TYPE_CHECKING:
     from disc_model.simulation.result import Result
@@ -38,7 +37,7 @@ def locking(
     record: Seconds = 20.0,
     max_record: Seconds = 160.0,
     multipliers: bool = True,
-    probes: Annotated[Count, Field(ge=0, le=10_000)] = 0,
+    probes: Natural = 0,
     start: Start = STATIC,
     tol: Tolerance = 1e-10,
 ) -> Dataset:

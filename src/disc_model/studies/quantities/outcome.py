@@ -71,7 +71,7 @@ def come_to(case: Parameters, *args: Any, **options: Any) -> State:
 @quantity(
     points_per_job=80,
     rules=((lambda o: o.evaluation_time <= min(o.after_separation, o.horizon), _TIMES),),
-    motion=Motion(4, COME_TO, come_to),
+    motion=Motion(100, COME_TO, come_to),
 )
 def outcome(
     case: Parameters,

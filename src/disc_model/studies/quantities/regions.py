@@ -28,7 +28,7 @@ def _come_to(case: Parameters, *, horizon: float, tol: float, **_: Any) -> State
     return come_to(case, horizon, STATIC, 1.0, 5.0, True, tol)
 
 
-@quantity(points_per_job=250, motion=Motion(4, COME_TO, _come_to))
+@quantity(points_per_job=250, motion=Motion(25, COME_TO, _come_to))
 def regions(
     case: Parameters,
     horizon: Seconds,

@@ -20,7 +20,7 @@ from disc_model.data.variables import OF_QUANTITIES, with_advice
 from disc_model.errors import require
 from disc_model.parameters import Parameters
 from disc_model.studies.quantity import Row, Ruled, attempted, found, listed, quantity, with_ends
-from disc_model.units import Count, CycleTolerance, Finite, Seconds, Unit, is_number
+from disc_model.units import CycleTolerance, Finite, Natural, Seconds, Several, Unit, is_number
 
 UNSTABLE = ("unstable", "no_cycle", "separates", "unstable_sliding")
 FAILED = "failed"
@@ -54,9 +54,9 @@ def sensitivity(
     case: Parameters,
     *,
     distributions: Distributions,
-    samples: Annotated[Count, Field(ge=2, le=2**16)] = 64,
-    seed: Annotated[Count, Field(ge=0)] = 0,
-    simulated_samples: Annotated[Count, Field(ge=0)] = 0,
+    samples: Several = 64,
+    seed: Natural = 0,
+    simulated_samples: Natural = 0,
     horizon: Seconds = 500.0,
     tol: CycleTolerance = 1e-12,
 ) -> Dataset:

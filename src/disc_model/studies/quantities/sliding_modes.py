@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import math
-from typing import Annotated
 
 import numpy as np
-from pydantic import Field
 from xarray import Dataset
 
 from disc_model.data.variables import OF_QUANTITIES, value_with_unit
@@ -21,7 +19,7 @@ from disc_model.studies.quantity import (
     quantity,
     values_between,
 )
-from disc_model.units import Count
+from disc_model.units import Size
 
 OF_MODES = {
     "frequency": "frequency",
@@ -35,12 +33,7 @@ OF_MODES = {
 
 @quantity(points_per_job=60, own=("name",), rules=BETWEEN)
 def sliding_modes(
-    case: Parameters,
-    *,
-    name: Free = "Omega",
-    bounds: Bounds,
-    step: Step,
-    modes: Annotated[Count, Field(ge=1, le=2000)] = 24,
+    case: Parameters, *, name: Free = "Omega", bounds: Bounds, step: Step, modes: Size = 24
 ) -> Dataset:
     """Frequencies, growth rates and damping of the modes of steady sliding along one parameter, each of
     which keeps its number.
