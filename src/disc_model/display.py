@@ -34,7 +34,9 @@ def number_text(value: float, unit: str = "", digits: int = 6) -> str:
 def rounded_text(value: float, digits: int) -> str:
     """A number rounded to significant digits, with a power of ten from `WRITTEN_OUT` on."""
     text = f"{value:.{digits}g}"
-    return f"{float(text):.0f}" if "e+" in text and abs(value) < WRITTEN_OUT else text
+    if "e+" in text and abs(value) < WRITTEN_OUT:
+        return f"{float(text):.0f}"
+    return text
 
 
 def frequencies_text(frequencies: Sequence[float]) -> str:

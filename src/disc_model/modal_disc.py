@@ -39,8 +39,10 @@ _OF_A_MODE = re.compile(rf"({'|'.join(UNCERTAIN)})_\d+_\d+")
 
 def column_of(name: Any) -> str:
     """What a name such as omega_2_0 is of a mode: omega; "" if it is no such name."""
-    match = _OF_A_MODE.fullmatch(name) if isinstance(name, str) else None
-    return match[1] if match else ""
+    match = _OF_A_MODE.fullmatch(str(name))
+    if match is None:
+        return ""
+    return match[1]
 
 
 def si_unit_of_mode(name: str) -> str:

@@ -5,7 +5,7 @@ table is never compared with itself, because nothing tells whether all its modes
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import lru_cache, partial
 from itertools import product
@@ -115,8 +115,11 @@ def choose_modes(
     >>> dm.choose_modes(dm.Parameters(N=385, Omega=15.1), 1e-3).parameters.n_diameters
     3
     """
-    asked = tolerance or (1e-3 if quantity == FREQUENCIES else 1e-2)
-    error_between = frequency_error if quantity == FREQUENCIES else partial(_rate_error, quantity)
+    asked = tolerance or 1e-2
+    error_between: Callable[[Parameters, Parameters], float] = partial(_rate_error, quantity)
+    if quantity == FREQUENCIES:
+        asked = tolerance or 1e-3
+        error_between = frequency_error
     errors: dict[Size, float] = {}
     for size, *larger in _compared(case, quantity):
         chosen = _resized(case, size)
@@ -150,7 +153,7 @@ def _compared(p: Parameters, quantity: str) -> Iterator[tuple[Size, ...]]:
         ]:
             yield size, RICH
     else:
-        for l, c in CANDIDATES + (LARGER if quantity == "sliding_growth" else ()):
+        for l, c in CANDIDATES + LARGER * (quantity == "sliding_growth"):
             yield (l, c), (2 * l, c), (2 * l, c + 1)
 
 
@@ -193,4 +196,6 @@ def _rate_error(quantity: str, p: Parameters, larger: Parameters) -> float:
 @lru_cache(maxsize=128)  # a larger model may be a candidate later
 def _growth_rate(quantity: str, p: Parameters) -> float:
     """Growth rate of the stick-slip cycle or of steady sliding, 1/s; nan without it."""
-    return float((floquet(p) if quantity == "growth" else steady_sliding(p)).growth_rate)
+    if quantity == "growth":
+        return floquet(p).growth_rate
+    return steady_sliding(p).growth_rate

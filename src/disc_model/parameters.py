@@ -215,7 +215,9 @@ class Parameters(Strict):
 
     def _doubts(self) -> Iterator[str]:
         """Yield what is implausible of the plate and the damping, which mistaken units make so."""
-        damping = (self.damping_ratio or 0.0,) if self.disc is None else self.disc.damping_ratio
+        damping: tuple[float, ...] = (self.damping_ratio or 0.0,)
+        if self.disc is not None:
+            damping = self.disc.damping_ratio
         if max(damping) > MOST_DAMPED:
             yield f"damping ratio above {MOST_DAMPED:g}: it is a fraction of critical damping, not per cent"
         if self.disc is not None or None in (self.a, self.b, self.h, self.E):
@@ -230,13 +232,17 @@ class Parameters(Strict):
         """Parameters that a disc given by its modes, or a damping ratio, replaces."""
         if self.disc is not None:
             return (*PLATE, "damping_ratio")
-        return () if self.damping_ratio is None else ("D_star",)
+        if self.damping_ratio is not None:
+            return ("D_star",)
+        return ()
 
     def _check_disc(self) -> None:
         """Refuse parameters that are replaced, and laws of contact that need to know more of a disc
         given by its modes."""
         disc = self.disc
-        by = "damping_ratio is given" if disc is None else "a disc is given: it is of the plate"
+        by = "damping_ratio is given"
+        if disc is not None:
+            by = "a disc is given: it is of the plate"
         replaced = []
         for name in self._replaced:
             value = getattr(self, name)

@@ -284,7 +284,10 @@ def arguments_of(function: Callable[..., Any], base: type[Strict] = Strict) -> t
     hints = get_type_hints(function, include_extras=True)
     fields: dict[str, Any] = {}
     for each in [*inspect.signature(function).parameters.values()][1:]:
-        fields[each.name] = (hints[each.name], ... if each.default is each.empty else each.default)
+        default = each.default
+        if default is each.empty:
+            default = ...
+        fields[each.name] = (hints[each.name], default)
     # what is in the unit of a parameter comes after the name of that
     order = sorted(fields, key=lambda name: _is_of_another(hints[name]))
     return create_model(function.__name__, __base__=base, **{name: fields[name] for name in order})

@@ -79,4 +79,6 @@ def table_of(data: Dataset) -> pd.DataFrame:
 def head_of(name: str, attributes: Mapping[Any, Any]) -> str:
     """The head of a column: a name, and the unit of its numbers."""
     unit = attributes.get("units", "1")
-    return name if unit in ("", "1") else f"{name} ({unit})"
+    if unit in ("", "1"):
+        return name
+    return f"{name} ({unit})"

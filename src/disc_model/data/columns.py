@@ -35,8 +35,10 @@ def series_dataset(columns: Entries, along: str) -> Dataset:
     the same time."""
     data: Entries = {}
     for name, column in columns.items():
-        kind: type = SERIES[name].dtype if name in SERIES else float
-        data[name] = (along, np.asarray(column, kind), attributes(name))
+        array = np.asarray(column, float)
+        if name in SERIES:
+            array = np.asarray(column, SERIES[name].dtype)
+        data[name] = (along, array, attributes(name))
     return Dataset(data).set_coords("time")
 
 
@@ -105,7 +107,9 @@ def result_dataset(result: Any, function: str = "") -> Dataset:
     result : a dataset, a result of this package, whose attributes become variables, a mapping, or one number
     function : its name, if it is one of this package
     """
-    kind = type(result).__name__ if is_dataclass(result) else function
+    kind = function
+    if is_dataclass(result):
+        kind = type(result).__name__
     if isinstance(result, Dataset):
         data = result
     elif hasattr(result, "to_dataset"):

@@ -152,13 +152,17 @@ def load(path: str | Path) -> Dataset | xr.DataTree:
     ['events', 'late']
     """
     tree = load_tree(path)
-    return tree if tree.children else tree.to_dataset()
+    if tree.children:
+        return tree
+    return tree.to_dataset()
 
 
 def load_tree(path: str | Path, *, lazy: bool = False) -> xr.DataTree:
     """As `load`, always as a tree; if it is lazy, numbers are read when they are used."""
     file = regular_file(path)
-    read = xr.open_datatree if lazy else xr.load_datatree
+    read = xr.load_datatree
+    if lazy:
+        read = xr.open_datatree
     try:
         tree = read(file, engine="netcdf4", decode_timedelta=False)
         return tree.map_over_datasets(_with_words)
@@ -210,7 +214,9 @@ def samples(case: xr.DataTree, name: str, at_least: int = 2, *, envelope: bool =
     window = group(case, name)
     folded = any(str(key).endswith("_min") for key in window)
     if folded != envelope:
-        kind = "ranges" if folded else "samples"
+        kind = "samples"
+        if folded:
+            kind = "ranges"
         raise Missing(f"recorded {name} as {kind}: its window has, or needs, an envelope")
     length = window.sizes["time"]
     if length < at_least:

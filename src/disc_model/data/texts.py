@@ -22,17 +22,23 @@ def number_text(value: Any, form: str) -> Any:
     if isinstance(value, list | np.ndarray):
         return [number_text(each, form) for each in value]
     digits, _, unit = form.partition(" ")
-    return f"{UNITS[unit] * value:{digits}} {unit}" if unit else format(value, form)
+    if not unit:
+        return format(value, form)
+    return f"{UNITS[unit] * value:{digits}} {unit}"
 
 
 def _listed(value: Any) -> Any:
-    return (", ".join(map(str, value)) or "none") if isinstance(value, list) else value
+    if isinstance(value, list):
+        return ", ".join(map(str, value)) or "none"
+    return value
 
 
 def _cell(value: object) -> str:
-    if isinstance(value, float):
-        return "" if math.isnan(value) else f"{value:g}"
-    return str(value)
+    if not isinstance(value, float):
+        return str(value)
+    if math.isnan(value):
+        return ""
+    return f"{value:g}"
 
 
 _TEMPLATES = jinja2.Environment(

@@ -227,7 +227,9 @@ def attributes(name: str) -> Entries:
         return known[name].attributes
     description = Parameters.model_fields[name].description or name
     text = _TABLES["parameters"].get(name, description)
-    comment = description if text != description else ""
+    comment = ""
+    if text != description:
+        comment = description
     choices = CHOICES.get(name, ())
     unit = Parameters.unit(name) or "1"
     return Variable(_CF_UNITS.get(unit, unit), text, choices, comment=comment).attributes
@@ -300,7 +302,9 @@ def ranged_variable(name: str) -> str:
 def unit_of_parameter(name: str) -> str:
     """The unit of a parameter or of a number of a disc's table for readers; "" without one."""
     unit = Parameters.unit(name) or si_unit_of_mode(name)
-    return "" if unit == "1" else unit
+    if unit == "1":
+        return ""
+    return unit
 
 
 def value_with_unit(name: str, value: float) -> str:
@@ -317,8 +321,9 @@ def message_of(result: Any) -> str:
         return message
     if status == "ok":
         return ""
-    is_complete = getattr(status, "complete", False)
-    return message if is_complete else with_advice(message, status)
+    if getattr(status, "complete", False):
+        return message
+    return with_advice(message, status)
 
 
 def values_text(

@@ -340,8 +340,7 @@ class Study(Strict):
             units |= plot.units
             if {"x", "y"} <= plot.axes.keys():
                 axes = [plot.axes["x"], plot.axes["y"]]
-        motion = self.of.motion
-        return {"units": units, "axes": axes, "motion": motion.text if motion else ""}
+        return {"units": units, "axes": axes, "motion": getattr(self.of.motion, "text", "")}
 
     # ---- Figures
 
@@ -358,7 +357,9 @@ class Study(Strict):
         along: dict[str, list[Any]] = {}
         for dim, frame in self.dims.items():
             rows = [*frame.itertuples(index=False, name=None)]
-            along[dim] = rows if len(frame.columns) > 1 else [value for (value,) in rows]
+            along[dim] = rows
+            if len(frame.columns) == 1:
+                along[dim] = [value for (value,) in rows]
         for name in plot.axes.values():
             if math.inf in along.get(name, ()):
                 return [Fault(("x",), name, "has the value inf, which no axis can show")]

@@ -53,7 +53,9 @@ def floquet(case: Parameters, *, tol: CycleTolerance = 1e-12) -> Dataset:
     from disc_model.stability.cycle import find_cycle
 
     cycle = find_cycle(case, tol)
-    leading = cycle.multipliers[0] if cycle.status == "ok" else complex(math.nan, math.nan)
+    leading = complex(math.nan, math.nan)
+    if cycle.status == "ok":
+        leading = cycle.multipliers[0]
     values = {
         "status": cycle.status.value,
         "growth_rate": cycle.growth_rate,
@@ -116,7 +118,9 @@ def lyapunov_exponents(
         "averaging_time": result.duration,
         "separations": result.separations,
     }
-    message = "" if result.status.complete else result.status.advice
+    message = ""
+    if not result.status.complete:
+        message = result.status.advice
     return found("lyapunov_exponents", values, message, exponent_number=range(EXPONENTS))
 
 

@@ -72,7 +72,9 @@ def range_law(
     from disc_model.simulation.states import perturb, static_start
 
     static = static_start(case)
-    kick = {"u_velocity": blow} if blow else {"u": 2 * static.u}
+    kick = {"u": 2 * static.u}
+    if blow:
+        kick = {"u_velocity": blow}
     starts = (static, horizon), (perturb(case, static, **kick), displaced_horizon)
     rows = []
     for state, end in starts:

@@ -66,7 +66,9 @@ def regions(
         values["outcome"] = Outcome.GROWING
     else:
         is_timed = any(place.items() <= case.numbers.items() for place in timed)
-        compared_with = () if is_timed else (horizon,)
+        compared_with: tuple[float, ...] = (horizon,)
+        if is_timed:
+            compared_with = ()
         result = find_outcome(case, horizon, tol=tol, near=start, compared_with=compared_with)
         values |= _followed(result)
         message = result.message
@@ -101,7 +103,9 @@ def _without_cycle(start: FloquetResult | NearCycle, outcome: str) -> str:
         return "steady_sliding"
     motion = getattr(start, "motion", "nearby_only")
     known = ("nearby_only", *STABLE_CYCLES, "unstable_sliding")
-    return motion if motion in known else "no_cycle"
+    if motion in known:
+        return motion
+    return "no_cycle"
 
 
 def _columns_of(cycle: FloquetResult) -> Row:

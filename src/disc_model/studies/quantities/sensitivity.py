@@ -125,9 +125,11 @@ def _draws(case: Parameters, distributions: Mapping[str, Any], samples: int, see
         own = numbers.get(name)
         path = f"distributions.{name}"
         require((is_number(own), path, own, "must be of a parameter that is a number"))
-        scale = own if distribution.relative else 1.0
         width = distribution.high - distribution.low
-        columns.append(scale * (distribution.low + shares * width))
+        column = distribution.low + shares * width
+        if distribution.relative:
+            column *= own
+        columns.append(column)
     return np.transpose(columns)
 
 
