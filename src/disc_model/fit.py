@@ -51,8 +51,7 @@ def fit(
     Parameters
     ----------
     case : the case; its values of the varied parameters are the start of the search
-    vary : names of the parameters that are fitted, each one of ``case.numbers``, such as ``mu_s``, or
-        ``omega_2_0`` of a disc given by its modes
+    vary : names of the parameters that are fitted, each one of ``case.numbers``, such as ``mu_s``
     data : table with a row for each measurement, or what `pandas.DataFrame` makes one of: ``quantity``, its measured
         ``value`` and ``uncertainty``, one standard deviation, both in SI units; and a column for each parameter that
         was set at the measurement, such as ``Omega``, where an empty cell stands for the value of the case.

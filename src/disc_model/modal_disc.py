@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections import Counter
 from collections.abc import Callable, Iterable
 from functools import partial
@@ -30,24 +29,6 @@ GIVEN_ONCE = (
 NO_PAIR = "a mode without nodal diameters is no half of a pair, and must be given once"
 
 Quantity = float | str  # a number, or a text that stands for one, with or without its unit
-
-
-UNCERTAIN = {"omega": "rad/s", "amplitude": "kg^-1/2", "damping_ratio": "", "tangential": "kg^-1/2"}
-"""Columns of numbers of modes, and their SI units."""
-_OF_A_MODE = re.compile(rf"({'|'.join(UNCERTAIN)})_\d+_\d+")
-
-
-def column_of(name: Any) -> str:
-    """What a name such as omega_2_0 is of a mode: omega; "" if it is no such name."""
-    match = _OF_A_MODE.fullmatch(str(name))
-    if match is None:
-        return ""
-    return match[1]
-
-
-def si_unit_of_mode(name: str) -> str:
-    """The SI unit of a number of a mode by its name, "" of a share or another name."""
-    return UNCERTAIN.get(column_of(name), "")
 
 
 class Disc(Strict):
@@ -175,29 +156,6 @@ class Disc(Strict):
         return f"Disc({counted(len(self.omega), 'mode')}, {frequencies_text(self.omega)})"
 
     __str__ = __repr__
-
-    @property
-    def numbers(self) -> dict[str, float]:
-        """Numbers of the modes that may be uncertain, by names such as omega_2_0: two nodal
-        diameters, no circle. A mode without nodal diameters does not move along the path."""
-        numbers: dict[str, float] = {}
-        for column in UNCERTAIN:
-            for i, value in enumerate(getattr(self, column)):
-                if column != "tangential" or self.diameters[i]:
-                    numbers[self._name_of(column, i)] = value
-        return numbers
-
-    def _name_of(self, column: str, i: int) -> str:
-        """Return the name of the number of a mode, such as omega_2_0."""
-        return f"{column}_{self.diameters[i]}_{self.circles[i]}"
-
-    def with_numbers(self, **changes: float) -> Disc:
-        """The disc with some of its `numbers` changed."""
-        columns: dict[str, list[float]] = {}
-        for column in UNCERTAIN:
-            given = enumerate(getattr(self, column))
-            columns[column] = [changes.get(self._name_of(column, i), value) for i, value in given]
-        return self.replace(**columns)
 
     def first(self, count: int) -> Disc:
         """The disc with only the first `count` modes of its table."""

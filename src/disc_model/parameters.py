@@ -276,28 +276,12 @@ class Parameters(Strict):
             (0 < rigidity < math.inf, "h", h, finite),
         )
 
-    def replace(self, **changes: Any) -> Self:
-        """Return a copy with some values changed; for a disc given by its modes also its
-        `Disc.numbers`. Raises `ParameterError` as the constructor."""
-        values = {name: getattr(self, name) for name in self.model_fields_set}
-        if self.disc is not None and "disc" not in changes:
-            of_disc = self.disc.numbers.keys() & changes.keys()
-            numbers = {name: changes.pop(name) for name in of_disc}
-            if numbers:
-                values["disc"] = self.disc.with_numbers(**numbers)
-        return type(self)(**{**values, **changes})
-
     @property
     def numbers(self) -> dict[str, float]:
-        """All numbers of the case that may change continuously, by name: parameters and
-        `Disc.numbers`, tangential ones where friction acts on the surface."""
+        """All numbers of the case that may change continuously, by name."""
         without = [name for name, value in _WITHOUT_LAW.items() if getattr(self, name) == value]
         unused = (*self._replaced, *without)
-        numbers = {} if self.disc is None else self.disc.numbers
-        if self.friction_offset != SURFACE:
-            numbers = {x: y for x, y in numbers.items() if not x.startswith("tangential")}
-        own = {x: y for x, y in self if isinstance(y, float) and x not in unused}
-        return own | numbers
+        return {x: y for x, y in self if isinstance(y, float) and x not in unused}
 
     def __repr_args__(self) -> Iterator[tuple[str, Any]]:
         """What is given, and not as in Table 1."""

@@ -29,7 +29,6 @@ from disc_model.simulation.result import EVENT_ROW, SAMPLE_ROW
         ("u_velocity_max", "m s-1", "greatest vertical velocity of the slider", "within the bin"),
         ("rho", "kg m-3", "density of the disc", None),
         ("k", "N m-1", "normal spring of the slider", "spring of the slider, normal to the disc"),
-        ("omega_2_0", "rad s-1", "natural frequency of the mode (2, 0)", "2 nodal diameters and 0 circles"),
     ],
 )  # fmt: skip
 def test_attributes(name: str, unit: str, text: str, comment: str | None) -> None:

@@ -325,17 +325,6 @@ def test_a_stored_branch_is_a_branch_again(kind: str, folded: dm.Branch, tmp_pat
         dm.Branch.from_dataset(stored.drop_vars("special_a"))
 
 
-@pytest.mark.compiled
-def test_a_number_of_a_mode_is_a_parameter_too() -> None:
-    disc = dm.Disc(
-        diameters=[0, 1], omega=[1490, 1515], amplitude=[1.53, 2.16], damping_ratio=[1e-3, 1e-3]
-    )
-    case = dm.Parameters(N=385, Omega=10, disc=disc, r_0=0.1)
-    along = dm.continue_cycle(case, "omega_1_0", (1510, 1520)).to_dataset()["omega_1_0"]
-    assert along.units == "rad s-1"
-    assert (along.min(), along.max()) == (1510, 1520)
-
-
 # ---- What is refused
 
 

@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 
 from disc_model.display import counted, frequencies_text
 from disc_model.errors import StatusBase
-from disc_model.modal_disc import column_of, si_unit_of_mode
 from disc_model.parameters import Parameters
 
 _TABLES = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
@@ -166,9 +165,9 @@ def _variables(table: Entries) -> dict[str, Variable]:
     return variables
 
 
-SERIES, SCALARS, PERTURBATIONS, COORDINATES, _OF_GRIDS, _OF_A_MODE = (
+SERIES, SCALARS, PERTURBATIONS, COORDINATES, _OF_GRIDS = (
     _variables(_TABLES[part])
-    for part in ("series", "scalars", "perturbations", "modal", "of_grids", "of_modes")
+    for part in ("series", "scalars", "perturbations", "modal", "of_grids")
 )
 OF_RESULTS = {name: _variables(part) for name, part in _TABLES["results"].items()}
 OF_RESULTS["Result"].update(SCALARS)
@@ -212,10 +211,8 @@ _CF_UNITS = {
 
 
 def attributes(name: str) -> Entries:
-    """CF attributes of a variable of a run, a parameter or a number of one of a disc's modes: units, long
-    name, comment and, for a flag, the meanings of its values."""
-    if column_of(name):
-        return _attributes_of_mode(name)
+    """CF attributes of a variable of a run or of a parameter: units, long name, comment and, for a flag, the
+    meanings of its values."""
     stem, _, bound = name.rpartition("_")
     known = SERIES | SCALARS | PERTURBATIONS | _OF_GRIDS
     if bound in _BOUNDS and stem in SERIES:
@@ -233,15 +230,6 @@ def attributes(name: str) -> Entries:
     choices = CHOICES.get(name, ())
     unit = Parameters.unit(name) or "1"
     return Variable(_CF_UNITS.get(unit, unit), text, choices, comment=comment).attributes
-
-
-def _attributes_of_mode(name: str) -> Entries:
-    """CF attributes of a number of one of a disc's modes, such as omega_2_0."""
-    column, diameters, circles = name.rsplit("_", 2)
-    number = _OF_A_MODE[column]
-    text = f"{number.long_name} of the mode ({diameters}, {circles})"
-    lines = f"{counted(int(diameters), 'nodal diameter')} and {counted(int(circles), 'circle')}"
-    return number._replace(long_name=text, comment=lines).attributes
 
 
 def flag_names(variable: Any) -> np.ndarray:
@@ -284,15 +272,6 @@ def typeset(text: str) -> str:
     return re.sub(r"(?<!\$)\b(\w)_(\w)\b", r"$\1_\2$", text)
 
 
-def presentation_of(name: str) -> Shown:
-    """Presentation of a distributed parameter: one of `SHOWN`, or of a single mode of a table, such
-    as omega_2_0."""
-    if name in SHOWN:
-        return SHOWN[name]
-    column, diameters, circles = name.rsplit("_", 2)
-    return Shown("", f"{_TABLES['symbols'][column]}({diameters}, {circles})", si_unit_of_mode(name))
-
-
 def ranged_variable(name: str) -> str:
     """The sampled variable whose range a variable is an end of, such as P of P_max; the name itself of
     any other."""
@@ -300,8 +279,8 @@ def ranged_variable(name: str) -> str:
 
 
 def unit_of_parameter(name: str) -> str:
-    """The unit of a parameter or of a number of a disc's table for readers; "" without one."""
-    unit = Parameters.unit(name) or si_unit_of_mode(name)
+    """The unit of a parameter for readers; "" without one."""
+    unit = Parameters.unit(name)
     if unit == "1":
         return ""
     return unit

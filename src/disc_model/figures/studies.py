@@ -13,7 +13,7 @@ from xarray import DataArray, Dataset
 
 from disc_model.analysis.classify import share
 from disc_model.analysis.contact_loss import excess_of_flights, pinned_range
-from disc_model.data.variables import presentation_of, stated_in, typeset
+from disc_model.data.variables import SHOWN, stated_in, typeset
 from disc_model.figures.draw import (
     COLUMN,
     LOWER,
@@ -675,7 +675,7 @@ def sensitivity(study: Dataset) -> Figure:
         along = [each[i] for each in cases.coords.values() if each.dims == ("case",)]
         ax.set_title(", ".join(map(value_text, along)))
         ax.set(xlabel="Probability of instability", xlim=(-0.03, 1.03))
-    symbols = [presentation_of(name).symbol for name in thirds["parameter"].values]
+    symbols = [SHOWN[name].symbol for name in thirds["parameter"].values]
     axes[0].set_yticks(rows, [typeset(symbol) for symbol in symbols])
     return figure
 

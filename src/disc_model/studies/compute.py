@@ -14,9 +14,8 @@ from xarray import Dataset
 
 from disc_model.data.variables import PERTURBATIONS, TRUTH, Variable, attributes
 from disc_model.display import progress_bar
-from disc_model.modal_disc import column_of
 from disc_model.parameters import Parameters
-from disc_model.studies.grid import WORDS, Dims
+from disc_model.studies.grid import VARIED, WORDS, Dims
 from disc_model.studies.quantity import NUMERICAL, Row, failed
 
 Map = Callable[..., Iterable[Any]]
@@ -48,7 +47,7 @@ class Call:
         kicks = {}
         options = dict(self.options)
         for name, value in point.items():
-            if is_of_case(name):
+            if name in Parameters.model_fields:
                 own[name] = value
             elif name in PERTURBATIONS:
                 kicks[name.removeprefix("perturbation_")] = value
@@ -60,11 +59,6 @@ class Call:
             return self.function(self.make(**own), **options)
         except NUMERICAL as error:
             return failed(self.quantity, error)
-
-
-def is_of_case(name: str) -> bool:
-    """Whether a name is one of a case: a parameter, or a number of one of a disc's modes."""
-    return name in Parameters.model_fields or bool(column_of(name))
 
 
 def compute(
@@ -131,7 +125,7 @@ def _varied(dims: Dims) -> dict[str, Any]:
             if not all(isinstance(value, int | float | str) for value in values):
                 values = [*map(str, values)]
             attrs = {}
-            if is_of_case(name) or name in PERTURBATIONS:
+            if name in VARIED:
                 attrs = attributes(name)
             if name in WORDS:
                 attrs = {"long_name": attrs["long_name"]}

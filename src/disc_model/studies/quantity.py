@@ -21,7 +21,6 @@ from disc_model.data.coded import words
 from disc_model.data.described import described
 from disc_model.data.variables import OF_QUANTITIES, Variable
 from disc_model.errors import DiscModelError, Fault, ParameterError, raise_faults, suggestion
-from disc_model.modal_disc import column_of
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.simulation.case import Start
 from disc_model.units import Finite, Positive, Several, Strict, Unit, arguments_of, must
@@ -42,12 +41,11 @@ MOST = 100_000
 
 def _is_free(name: str) -> bool:
     """Whether a name is that of a number that varies continuously."""
-    of_disc = bool(column_of(name))
-    return of_disc or (Parameters.unit(name) != "" and not name.startswith("n_"))
+    return Parameters.unit(name) != "" and not name.startswith("n_")
 
 
 Free = Annotated[str, AfterValidator(must(_is_free, "must be a number of the case"))]
-"""A number along which a function goes: a parameter, or one of a disc's modes."""
+"""A number along which a function goes."""
 
 
 # ---- Options and their rules

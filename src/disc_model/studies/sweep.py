@@ -15,11 +15,11 @@ from xarray import Dataset
 from disc_model.data.columns import result_dataset
 from disc_model.data.variables import COMMON, OF_RESULTS
 from disc_model.errors import Fault, ParameterError, raise_faults, require, suggestion
-from disc_model.modal_disc import si_unit_of_mode
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.provenance import versions_text
-from disc_model.studies.compute import Call, Map, compute, is_of_case, stack
+from disc_model.studies.compute import Call, Map, compute, stack
 from disc_model.studies.grid import Points, expand
+from disc_model.studies.quantity import Row
 from disc_model.units import in_si, is_number
 
 
@@ -74,13 +74,14 @@ def sweep(
     (Frozen({'N_Omega': 2}), array([385., 300.]))
     """
     raise_faults(foreign_case(case))
-    over = over or {}
+    over = dict(over or {})
     arguments = dict(inspect.signature(function).parameters)
     arguments.pop(next(iter(arguments), ""), None)
-    varied = {name: x for name, x in named.items() if is_of_case(name) and name not in arguments}
+    numbers = Parameters.model_fields.keys() - arguments.keys()
+    varied = {name: x for name, x in named.items() if name in numbers}
     options = {name: x for name, x in named.items() if name not in varied}
     _refuse_unknown((*options, *over), arguments)
-    dims = _dimensions(case, varied, dict({} if zip is None else zip), over)
+    dims = _dimensions(varied, dict({} if zip is None else zip), over)
     points = expand(dims)
     name = str(getattr(function, "__name__", type(function).__name__))
     call = Call(partial(_gathered, function, name, {*points, *dims}), case.replace, options)
@@ -141,13 +142,11 @@ def _gathered(
     return result.drop_vars(taken, errors="ignore")
 
 
-def _dimensions(
-    case: Parameters, varied: Mapping[str, Any], zipped: Mapping[Any, Any], over: Mapping[str, Any]
-) -> dict[str, pd.DataFrame]:
+def _dimensions(varied: Row, zipped: Mapping[Any, Any], over: Row) -> dict[str, pd.DataFrame]:
     """The columns of each dimension by its name; raises `ParameterError`."""
-    dims = {name: pd.DataFrame({name: _column(name, x, case)}) for name, x in varied.items()}
+    dims = {name: pd.DataFrame({name: _column(name, x)}) for name, x in varied.items()}
     dims |= {name: pd.DataFrame({name: pd.Series([*x], dtype=object)}) for name, x in over.items()}
-    columns = {str(name): _column(str(name), x, case) for name, x in zipped.items()}
+    columns = {str(name): _column(str(name), x) for name, x in zipped.items()}
     rule = "must have columns of equal length"
     require((len({*map(len, columns.values())}) <= 1, "zip", "", rule))
     if columns:
@@ -156,14 +155,14 @@ def _dimensions(
     return dims
 
 
-def _column(name: str, values: Any, case: Parameters) -> list[Any]:
+def _column(name: str, values: Any) -> list[Any]:
     """Values of a number of the case, in SI units; raises `ParameterError`."""
-    known = name in Parameters.model_fields or name in case.numbers
+    known = Parameters.model_fields
     several = not isinstance(values, str) and np.ndim(values) == 1 and len(values) > 0
     require(
         (several, name, values, "must be a list of values"),
-        (known, name, values, f"is no number of the case{suggestion(name, case.numbers)}"),
+        (name in known, name, values, f"is no number of the case{suggestion(name, known)}"),
     )
     given = np.asarray(values, dtype=object).tolist()
-    column = in_si(given, Parameters.unit(name) or si_unit_of_mode(name), name)
+    column = in_si(given, Parameters.unit(name), name)
     return [float(value) if is_number(value) else value for value in column]

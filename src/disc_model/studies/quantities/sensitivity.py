@@ -65,8 +65,7 @@ def sensitivity(
 
     Parameters
     ----------
-    distributions : distributions by parameter, or by number of a mode of a disc, such as omega_2_0 for two nodal
-        diameters and no circle
+    distributions : distributions by parameter
     samples : number of samples, a power of two; more of them keep the first ones
     seed : whole number that determines the samples
     simulated_samples : number of the first samples whose motion is simulated as well
