@@ -1,7 +1,7 @@
 """Views of cases and grid studies, with what rows of the ledger measure in a case, and its words."""
 
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, NamedTuple
@@ -224,7 +224,7 @@ class CaseView:
     @cached_property
     def history(self) -> xr.Dataset:
         """Least and greatest values of variables within the bins of the window ``history``."""
-        return self._stored(dataset.samples, "history", 1, envelope=True)
+        return self._stored("history")
 
     def range_of(self, name: str, start: float, stop: float) -> Range:
         """Return the range of a variable in the whole bins of the history between two times, s."""
@@ -311,7 +311,7 @@ class CaseView:
 
     @cached_property
     def events(self) -> xr.Dataset:
-        return self._stored(dataset.events)
+        return self._stored("events")
 
     @property
     def kept_span(self) -> Range:
@@ -424,7 +424,7 @@ class CaseView:
 
     def samples(self, window: str) -> xr.Dataset:
         """Return the samples of a window, or of the section ``poincare``."""
-        return self._stored(dataset.samples, window)
+        return self._stored(window)
 
     def places(self, last: float, share: float = PLACE) -> int:
         """Return at how many places the last points of the disc's section lie.
@@ -447,16 +447,10 @@ class CaseView:
             )
         return Signal(self.name, window, samples["time"].values, samples[name].values)
 
-    def _stored(self, read: Callable[..., xr.Dataset], *args: Any, **options: Any) -> xr.Dataset:
-        """Return what a function reads from the case; if that is missing, say of which case.
-
-        Parameters
-        ----------
-        read : a function of `disc_model.data.dataset`, whose first argument is the case
-        args, options : its further arguments
-        """
+    def _stored(self, name: str) -> xr.Dataset:
+        """Return a window of the case, or its events; if it is missing, say of which case."""
         try:
-            return read(self.node, *args, **options)
+            return dataset.group(self.node, name)
         except Missing as reason:
             raise Missing(f"case {self.name} {reason}") from None
 

@@ -183,7 +183,7 @@ def load_cases(paths: Iterable[str | Path]) -> dict[str, xr.DataTree]:
     return {Path(path).stem: load_tree(path) for path in paths}
 
 
-# ---- Access to the tree of one case, for claims and figures; a missing part is explained
+# ---- Parts of one case
 
 
 class Missing(Exception):
@@ -198,30 +198,6 @@ def group(case: xr.DataTree, name: str) -> Dataset:
     if "status" in case and STATUSES[int(case["status"])] == "failed":
         raise Missing("failed")
     raise Missing(f"did not record {name}")
-
-
-def events(case: xr.DataTree) -> Dataset:
-    """Events within the span ``kept_from`` to ``kept_until``."""
-    table = group(case, "events")
-    if "kept_from" not in table.attrs:
-        raise Missing("keeps no events")
-    return table
-
-
-def samples(case: xr.DataTree, name: str, at_least: int = 2, *, envelope: bool = False) -> Dataset:
-    """A window of at least `at_least` samples; or bins of an `envelope`, each variable as ``_min``
-    and ``_max``."""
-    window = group(case, name)
-    folded = any(str(key).endswith("_min") for key in window)
-    if folded != envelope:
-        kind = "samples"
-        if folded:
-            kind = "ranges"
-        raise Missing(f"recorded {name} as {kind}: its window has, or needs, an envelope")
-    length = window.sizes["time"]
-    if length < at_least:
-        raise Missing(f"has {length} samples in {name}, at least {at_least} are needed")
-    return window
 
 
 def markdown_table(head: Iterable[object], rows: Iterable[Iterable[object]]) -> list[str]:
