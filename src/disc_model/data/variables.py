@@ -165,9 +165,8 @@ def _variables(table: Entries) -> dict[str, Variable]:
     return variables
 
 
-SERIES, SCALARS, PERTURBATIONS, COORDINATES, _OF_GRIDS = (
-    _variables(_TABLES[part])
-    for part in ("series", "scalars", "perturbations", "modal", "of_grids")
+SERIES, SCALARS, PERTURBATIONS, COORDINATES = (
+    _variables(_TABLES[part]) for part in ("series", "scalars", "perturbations", "modal")
 )
 OF_RESULTS = {name: _variables(part) for name, part in _TABLES["results"].items()}
 OF_RESULTS["Result"].update(SCALARS)
@@ -214,7 +213,7 @@ def attributes(name: str) -> Entries:
     """CF attributes of a variable of a run or of a parameter: units, long name, comment and, for a flag, the
     meanings of its values."""
     stem, _, bound = name.rpartition("_")
-    known = SERIES | SCALARS | PERTURBATIONS | _OF_GRIDS
+    known = SERIES | SCALARS | PERTURBATIONS
     if bound in _BOUNDS and stem in SERIES:
         variable = SERIES[stem]
         remark = f"within the bin; {variable.comment}".removesuffix("; ")
