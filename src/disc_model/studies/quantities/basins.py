@@ -13,7 +13,6 @@ from operator import attrgetter
 from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
-from pydantic import Field
 from xarray import Dataset
 
 from disc_model.analysis.classify import share
@@ -21,13 +20,13 @@ from disc_model.data.variables import UNKNOWN_OUTCOMES, WORDS
 from disc_model.errors import require
 from disc_model.parameters import Parameters
 from disc_model.studies.quantity import Row, found, quantity, with_ends
-from disc_model.units import Natural, Real, Seconds, Size, Tolerance, Unit
+from disc_model.units import Natural, NotNegative, Seconds, Size, Tolerance, Unit
 
 if TYPE_CHECKING:
     from disc_model.stability.follower import OutcomeResult
 
 Objects = np.ndarray[Any, np.dtype[np.object_]]
-Energy = Annotated[Real, Field(ge=0, allow_inf_nan=False), Unit("J")]
+Energy = Annotated[NotNegative, Unit("J")]
 PRECISION = 1.05
 """Ratio of energies between which the critical one lies."""
 SMALLEST = 2.0**-40
@@ -46,7 +45,10 @@ OF_ATTRACTORS = (
 @quantity(
     points_per_job=5,
     rules=(
-        (lambda o: [*o.energies] == sorted({*o.energies}), "energies={0.energies} must ascend"),
+        (
+            lambda o: [*o.energies] == sorted({*o.energies}) != [],
+            "energies={0.energies} must ascend",
+        ),
         (
             lambda o: o.n_starts == 1 or 0.0 not in o.energies,
             "n_starts={0.n_starts} must be 1 where an energy is 0, since no direction tells them apart",
@@ -55,7 +57,7 @@ OF_ATTRACTORS = (
 )
 def basins(
     case: Parameters,
-    energies: Annotated[tuple[Energy, ...], Field(min_length=1)] = (0.0,),
+    energies: tuple[Energy, ...] = (0.0,),
     n_starts: Size = 1,
     *,
     horizon: Seconds = 200.0,

@@ -7,7 +7,6 @@ import math
 from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
-from pydantic import Field
 from xarray import Dataset
 
 from disc_model.data.variables import message_of
@@ -18,9 +17,9 @@ from disc_model.units import (
     CycleTolerance,
     Finite,
     Positive,
-    Real,
     Seconds,
     Several,
+    Share,
     Tolerance,
     Unit,
 )
@@ -141,7 +140,7 @@ def neutral_curves(
     y: Free = "N",
     bounds: Annotated[tuple[Finite, Finite], Unit(of="x")],
     lines: Annotated[Values, Unit(of="y")],
-    margin: Annotated[Real, Field(ge=0, le=1)] = 0.0,
+    margin: Share = 0.0,
     points: Several = 31,
     max_step: Positive = 0.1,
     max_points: Several = 200,

@@ -15,7 +15,6 @@ from pydantic import Field
 from xarray import Dataset
 
 from disc_model.analysis.classify import share
-from disc_model.arrays import Array
 from disc_model.data.variables import OF_QUANTITIES, with_advice
 from disc_model.errors import require
 from disc_model.parameters import Parameters
@@ -111,7 +110,9 @@ def sensitivity(
     return found("sensitivity", columns, messages, **own)
 
 
-def _draws(case: Parameters, distributions: Mapping[str, Any], samples: int, seed: int) -> Array:
+def _draws(
+    case: Parameters, distributions: Mapping[str, Any], samples: int, seed: int
+) -> np.ndarray:
     """Values of the distributed parameters, shape (samples, parameters)."""
     from scipy.stats import qmc
 
