@@ -270,7 +270,10 @@ class Study(Strict):
                 wrong = error
         faults = []
         for fault in wrong.faults:
-            faults.append(fault.inside(("axes" if fault.path[0] in self._varied else "base",)))
+            place = "base"
+            if fault.path[0] in self._varied:
+                place = "axes"
+            faults.append(fault.inside((place,)))
         raise ParameterError(*faults)
 
     @cached_property

@@ -90,7 +90,6 @@ def _at_speed(case: Parameters, tol: float, row: Row) -> Iterator[str]:
     row |= {
         "status": cycle.status.value,
         "growth_rate": cycle.growth_rate,
-        "stick_slip_frequency": cycle.releases / cycle.period if cycle.releases else math.nan,
         "rotation_frequency": case.Omega / (2 * math.pi),
         "n_modes": len(modes.frequency),
         "largest_sliding_growth_rate": cycle.sliding.growth_rate,
@@ -104,6 +103,8 @@ def _at_speed(case: Parameters, tol: float, row: Row) -> Iterator[str]:
         "mac": mac,
         "near_motion": may_be_near(cycle),
     }
+    if cycle.releases:
+        row["stick_slip_frequency"] = cycle.releases / cycle.period
     yield message_of(cycle)
 
 

@@ -112,22 +112,26 @@ def outcome(
     reached, result, late = _late(
         case, horizon, start, evaluation_time, after_separation, early_end, tol
     )
-    last = reached if result is None else result
-    complete = last.status.complete
     values: Row = {
-        "status": "ok" if complete else last.status.value,
+        "status": "ok",
         "outcome": reached.word,
         "first_separation": reached.timed_separation,
         "time_reached": reached.time,
         "cycle_distance": reached.distance,
         **_changes(reached),
-        **(asdict(late) if late else {}),
     }
+    if late is not None:
+        values |= asdict(late)
+    message = ""
+    last = result or reached
+    if not last.status.complete:
+        values["status"] = last.status.value
+        message = last.message
     if reached.outcome is Outcome.SEPARATION and result is not None:
         values["time_reached"] = result.final_state.time
     elif reached.outcome is not None and reached.time < horizon:
         values["left_at"] = reached.time
-    return found("outcome", values, "" if complete else last.message)
+    return found("outcome", values, message)
 
 
 def _changes(reached: OutcomeResult) -> dict[str, float]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from functools import partial
 from typing import TYPE_CHECKING, Annotated
 
@@ -112,7 +111,7 @@ def _measure(run: Result) -> Row:
     # samples at which separations begin; shorter ones lie between two samples
     is_apart = samples["phase"].values == PHASES.index("separation")
     starts = np.flatnonzero(np.diff(is_apart.astype(int)) == 1) + 1
-    return {
+    values = {
         "range": extent,
         "pinned_range": pinned,
         "deviation": extent / pinned - 1,
@@ -124,5 +123,7 @@ def _measure(run: Result) -> Row:
         "separation_rate": count / duration,
         "separation_fraction": apart,
         "stick_fraction": run.statistics["time_stick"] / duration,
-        "loss_position": separation_location(height, starts) if starts.size else math.nan,
     }
+    if starts.size:
+        values["loss_position"] = separation_location(height, starts)
+    return values

@@ -56,8 +56,9 @@ def regions(
     from disc_model.stability.follower import NearCycle, cycle_of_static_start, find_outcome
 
     start = cycle_of_static_start(case)
-    near = start if isinstance(start, NearCycle) else None
-    followed = near if near and near.follows_cycle else None
+    followed: NearCycle | None = None
+    if isinstance(start, NearCycle) and start.follows_cycle:
+        followed = start
     values: Row = {"status": "ok", "method": "multipliers"}
     message = ""
     if followed and followed.cycle.stable:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 from xarray import Dataset
 
@@ -69,12 +67,13 @@ def sliding_modes(
         row = {
             "unstable_modes": sliding.growing.size,
             "contact_force": sliding.contact_force,
-            "height": height_of_slider(cases[i], sliding) if sliding.status.exists else math.nan,
             "largest_growth_rate": sliding.growth_rate,
         }
-        rows.append(row)
-        if not sliding.status.exists:
+        if sliding.status.exists:
+            row["height"] = height_of_slider(cases[i], sliding)
+        else:
             messages.append(f"{value_with_unit(name, values[i])}: {sliding.message}")
+        rows.append(row)
     answer = {"status": "ok", "n_modes": n_modes, **columns, **listed(rows)}
     numbered = np.arange(1, modes + 1)
     return found("sliding_modes", answer, "".join(messages[:1]), value=values, mode=numbered)
