@@ -248,8 +248,9 @@ class Disc(Strict):
         from disc_model.data.files import regular_file
         from disc_model.disc.universal import disc_of_universal_file
 
-        place = {"r_0": r_0, "axis": axis, "centre": centre, "units": units}
-        return disc_of_universal_file(regular_file(path), **place)
+        return disc_of_universal_file(
+            regular_file(path), r_0=r_0, axis=axis, centre=centre, units=units
+        )
 
     @classmethod
     def from_section(  # noqa: PLR0913
