@@ -102,13 +102,7 @@ def _figure(raw: Any) -> Kind | None:
     return kind_of(mapping(raw).get("kind")).model_validate(raw)
 
 
-_KIND = Annotated[
-    Any,
-    WithJsonSchema(
-        {"type": "object", "properties": {"kind": {"type": "string"}}, "required": ["kind"]}
-    ),
-]
-Figure = Annotated[Kind, PlainValidator(_figure, json_schema_input_type=_KIND)]
+Figure = Annotated[Kind, PlainValidator(_figure, json_schema_input_type=Any)]
 """A figure of any kind; `workflow/schemas/write_schema.py` adds the keys of each kind to the schema."""
 
 
