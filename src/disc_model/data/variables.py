@@ -279,10 +279,7 @@ def ranged_variable(name: str) -> str:
 
 def unit_of_parameter(name: str) -> str:
     """The unit of a parameter for readers; "" without one."""
-    unit = Parameters.unit(name)
-    if unit == "1":
-        return ""
-    return unit
+    return Parameters.unit(name).removeprefix("1")
 
 
 def value_with_unit(name: str, value: float) -> str:
@@ -311,9 +308,8 @@ def values_text(
     factors from SI; of a disc that is given by its modes their number and frequencies."""
     texts = []
     for name, field in Parameters.model_fields.items():
-        usual = [] if name in ("N", "Omega") else [field.default, str(field.default)]
         told = name in values and name not in ("normalization", "contact")
-        if not told or values[name] in usual:
+        if not told or values[name] in (field.default, str(field.default)):
             continue
         if name == "disc":
             omega = dict(values[name])["omega"]
