@@ -14,7 +14,7 @@ stability in two; `branch` is the result, and `arguments` reads what is asked.
 from disc_model.stability.continuation.arguments import Bounds, require_interval
 from disc_model.stability.continuation.borders import NeutralCurves, StabilityCurve, neutral_curves
 from disc_model.stability.continuation.branch import Branch, continue_cycle
-from disc_model.stability.continuation.curve import StepControl, are_slow, passings, turns_of
+from disc_model.stability.continuation.curve import StepControl
 
 __all__ = [
     "Bounds",
@@ -22,10 +22,7 @@ __all__ = [
     "NeutralCurves",
     "StabilityCurve",
     "StepControl",
-    "are_slow",
     "continue_cycle",
     "neutral_curves",
-    "passings",
     "require_interval",
-    "turns_of",
 ]

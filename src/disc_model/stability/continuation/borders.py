@@ -19,14 +19,15 @@ from disc_model.errors import ParameterError, require
 from disc_model.parameters import Parameters
 from disc_model.stability.continuation.arguments import require_interval
 from disc_model.stability.continuation.curve import (
-    DIVERGES,
     CurvePoint,
     Evaluation,
     Rejected,
     StepControl,
     check_step,
+    curve_point,
     follow_curve,
     passes,
+    solve,
     spectrum_of,
 )
 from disc_model.stability.continuation.cycles import (
@@ -37,8 +38,7 @@ from disc_model.stability.continuation.cycles import (
     PERIOD_DOUBLING,
     CycleProblem,
     Entry,
-    Tracer,
-    first_cycle,
+    follow_between,
     leading,
     parameter_scale,
 )
@@ -58,11 +58,9 @@ SHARPEST = 0.8
 LEAST_RESEMBLANCE = 0.6  # of a multiplier's eigenvectors at two neighbouring points, at most 1
 DIFFERENCE = 1e-4  # arclength of the difference that gives a multiplier's gradient
 DEFECT = 0.1  # of a step along a border, which turns by up to 37 degrees; see `check_step`
-ON_BORDER = 1e-10  # value of the test function that counts as zero
+ON_BORDER = 3e-12  # tolerance of the test function
 LARGEST_TURN = 0.2  # largest change of the multiplier in a step along a border
-MOST_CORRECTIONS = 12  # of Newton's method at a point of a border
 CLOSES = 0.01  # distance from the first point of a border at which it has closed, over the step
-MOST_ON_LINE = StepControl(max_points=500)  # of a branch between two points of a line
 BORDER_KINDS: Mapping[str, Kind] = {
     FOLD: "fold",
     NEIMARK_SACKER: "neutral",
@@ -90,6 +88,7 @@ class BorderProblem:
 
     def __init__(self, kind: Kind, p: Parameters, names: Sequence[str], tol: float) -> None:
         self.kind = kind
+        self.tol = ON_BORDER
         self.cycles = CycleProblem(p, names, [parameter_scale(p, name) for name in names], tol)
         self.column = np.zeros(self.cycles.n)
         self.row = np.zeros(self.cycles.n)
@@ -99,20 +98,52 @@ class BorderProblem:
         """The point of the border next to a cycle of the case at the point x of its section, with
         `mu` as its critical multiplier."""
         z = self.cycles.place(x)
-        found = self.cycles.evaluate(z)
-        self._keep_vectors(found.jacobian, mu)
-        _, mu = self._test(found.jacobian)
-        return self._correct(self._point(z, found, mu), 0.0)
+        self._keep_vectors(self.cycles.evaluate(z).jacobian, mu)
+        found = self.evaluate(z)
+        return self._corrected(curve_point(z, found, np.linalg.svd(found.by)[2][-1]), 0.0)
 
     def next_point(self, points: Sequence[CurvePoint], ds: float) -> list[CurvePoint]:
         """The border's point at arclength ds beyond the last of some; raises `Rejected` if a
         shorter step is needed."""
         current = points[-1]
-        ahead = self._correct(current, ds)
-        if float(ahead.tangent @ current.tangent) < 0:
-            ahead = ahead.reversed()
+        if abs(ds * (current.found.turning @ current.tangent)) > LARGEST_TURN:
+            raise Rejected("the multiplier turns too fast")
+        ahead = self._corrected(current, ds)
         check_step(current, ahead, DEFECT, SHARPEST)
         return [ahead]
+
+    def _corrected(self, start: CurvePoint, ds: float) -> CurvePoint:
+        """The border's point in the plane normal to the tangent at arclength ds."""
+        rows = start.tangent[None, :]
+        matrix = np.vstack([start.found.by, rows])
+        return curve_point(*solve(self, start.z + ds * rows[0], rows, matrix), rows[0])
+
+    def residual(self, z: Array) -> Array:
+        """F of a cycle, and the test function."""
+        found = self.cycles.evaluate(z)
+        return np.append(found.residual, self._test(found.jacobian)[0])
+
+    def evaluate(self, z: Array) -> Evaluation:
+        """F of a cycle and the test function, with their derivatives: of the latter, which are by
+        differences, within the surface of cycles."""
+        found = self.cycles.evaluate(z)
+        value, mu = self._test(found.jacobian)
+        self._keep_vectors(found.jacobian, mu)
+        basis = np.linalg.svd(found.by)[2][self.cycles.n :]
+        changes = np.zeros((2, 2), complex)
+        for i, unit in enumerate(basis):
+            for side in (1, -1):
+                beside = self.cycles.evaluate(z + side * DIFFERENCE * unit)
+                changes[i] += side * np.array(self._test(beside.jacobian)) / (2 * DIFFERENCE)
+        gradient, turning = changes.T @ basis
+        return Evaluation(
+            np.append(found.residual, value),
+            np.vstack([found.by, gradient.real]),
+            found.orbit,
+            found.jacobian,
+            mu,
+            turning,
+        )
 
     def _keep_vectors(self, jacobian: Array, mu: complex) -> None:
         """Keep, of a point of the border, the singular vectors that border J - I on a fold, or the
@@ -140,65 +171,6 @@ class BorderProblem:
             raise Rejected("the multiplier changes its shape too fast")
         return math.log(abs(values[best])), complex(values[best])
 
-    def _point(self, z: Array, found: Evaluation, mu: complex) -> CurvePoint:
-        """A cycle on the surface, with the tangent of the curve on which the test function keeps
-        its value."""
-        self._keep_vectors(found.jacobian, mu)
-        basis = np.linalg.svd(found.by)[2][self.cycles.n :]
-        slopes = np.zeros(2)
-        turns = np.zeros(2, complex)
-        for i, unit in enumerate(basis):
-            ends_of_difference = []
-            for side in (1, -1):
-                beside = self.cycles.evaluate(z + side * DIFFERENCE * unit)
-                ends_of_difference.append(self._test(beside.jacobian))
-            (value, multiplier), (former_value, former_multiplier) = ends_of_difference
-            slopes[i] = (value - former_value) / (2 * DIFFERENCE)
-            turns[i] = (multiplier - former_multiplier) / (2 * DIFFERENCE)
-        steepness = float(np.linalg.norm(slopes))
-        if not steepness > 0:
-            raise Rejected("the multiplier does not depend on the parameters")
-        along = np.array([-slopes[1], slopes[0]]) / steepness
-        tangent = along @ basis
-        gradient = slopes @ basis
-        sign, _ = np.linalg.slogdet(np.vstack([found.by, gradient, tangent]))
-        return CurvePoint(
-            z,
-            found.by,
-            tangent,
-            float(sign),
-            found.orbit,
-            found.jacobian,
-            mu=mu,
-            gradient=gradient,
-            turning=turns @ basis,
-        )
-
-    def _correct(self, start: CurvePoint, ds: float) -> CurvePoint:
-        """The border's point at arclength ds: F = 0, test = 0, and the plane normal to the
-        tangent."""
-        expected = start.mu + complex(start.turning @ (ds * start.tangent))
-        if abs(expected - start.mu) > LARGEST_TURN:
-            raise Rejected("the multiplier turns too fast")
-        guess = start.z + ds * start.tangent
-        rows = start.tangent[None, :]
-        gradient = start.gradient
-        z = guess
-        found = self.cycles.evaluate(z)
-        value, mu = self._test(found.jacobian)
-        for _ in range(MOST_CORRECTIONS):
-            right = np.concatenate([found.residual, [value], rows @ (z - guess)])
-            if float(np.linalg.norm(right)) < ON_BORDER:
-                return self._point(z, found, mu)
-            move = -newton_step(np.vstack([found.by, gradient, rows]), right)
-            z = z + move
-            found = self.cycles.evaluate(z)
-            former = value
-            value, mu = self._test(found.jacobian)
-            # Broyden's update: a gradient by differences would take four orbits at each correction
-            gradient = gradient + (value - former - gradient @ move) / (move @ move) * move
-        raise Rejected(DIVERGES)
-
 
 def follow_border(
     problem: BorderProblem,
@@ -216,7 +188,7 @@ def follow_border(
         start, new = points[0], points[-1]
         if np.any((new.z[n:] < low) | (new.z[n:] > high)):
             return BOUND
-        alike = len(points) > 3 and abs(start.mu - new.mu) <= LARGEST_TURN
+        alike = len(points) > 3 and abs(start.found.mu - new.found.mu) <= LARGEST_TURN
         if alike and passes(points[-2], new, start, CLOSES) is not None:
             points[-1] = start
             return CLOSED
@@ -224,7 +196,9 @@ def follow_border(
 
     slopes = first.tangent[n:]
     slope = slopes[0] if abs(slopes[0]) > 1e-12 else slopes[1]
-    onward = first.reversed() if slope < 0 else first
+    onward = first
+    if slope < 0:
+        onward = first.reversed()
     follow = partial(follow_curve, advance=problem.next_point, steps=steps, watch=watch)
     points, end = follow(onward.reversed(), growth=GROWTH, easy=EASY)
     if end != CLOSED:
@@ -396,7 +370,9 @@ class _CurveSearch:
                     step = end - begin
                     beyond = growth[end::step]
                     until = next((n for n, rate in enumerate(beyond) if rate < 0), len(beyond))
-                    most = until + 1 if growth[begin] < 0 else 1
+                    most = 1
+                    if growth[begin] < 0:
+                        most = until + 1
                     self._seek(cases[begin], along[end::step][:most])
 
     def _seek(self, case: Parameters, ends: Sequence[float]) -> None:
@@ -407,10 +383,8 @@ class _CurveSearch:
         name = next(iter(self.plane))
         begin = case.numbers[name]
         for end in ends:
-            span = (min(begin, end), max(begin, end))
             try:
-                problem, start = first_cycle(case, name, max(map(abs, span)), self.tol)
-                course = Tracer(problem, MOST_ON_LINE, span).follow(start, 1 if begin < end else -1)
+                problem, course = follow_between(case, name, begin, end, self.tol)
             except (ParameterError, Rejected) as error:
                 self.failures.append(f"{name}={begin:.6g}: {error}")
                 return
@@ -489,7 +463,7 @@ def _border_of(entries: Sequence[Entry]) -> Entry | None:
 def _curve(problem: BorderProblem, points: Sequence[CurvePoint]) -> StabilityCurve:
     """The curve of a border that was followed."""
     cycles = problem.cycles
-    mu = np.array([multipliers(point.jacobian)[0] for point in points])
+    mu = np.array([multipliers(point.found.jacobian)[0] for point in points])
     period = np.array([point.orbit.period for point in points])
     adjoins_stable = np.log(np.abs(mu)) / period < NEUTRAL  # no other multiplier grows
     places = np.flatnonzero(adjoins_stable)
