@@ -9,7 +9,6 @@ import math
 import sys
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -36,13 +35,11 @@ from disc_model.stability.cycle import may_stick_and_slip
 from disc_model.stability.follower import (
     FIRST_LEG,
     LARGEST_PERIOD,
-    NEAR,
     SAME_POINT,
     Attractor,
     NearCycle,
     OutcomeResult,
     close_return,
-    cycle_of_static_start,
     find_cycle_near,
     find_equilibrium,
 )
@@ -60,18 +57,14 @@ from disc_model.stability.segments import (
 )
 from disc_model.stability.sliding import height_of_slider, steady_sliding
 
-# legs over which a motion approaches a known attractor, and is steady on another one
-NEARING, SETTLING = 4, 8
-# largest relative change of ranges, rates and shares over 40 s of a settled motion: aperiodic ones
-# vary by half of it
-VARIATION = 0.01
 # s over which intervals of a motion that never sticks must repeat to `CLOSES`: at 100 Hz that shows
 # rates of `SLOWEST`, as a record of 200 s does that is known to 1 %
 REPETITION = 40.0
-SAME = 0.05  # segments that differ by less are of one attractor; the rest of a drift may reach half of it
+SAME = 0.05  # segments that differ by less are of one attractor
+RECORD = 40.0  # s, of a settled motion by which its regularity is found
 SMALLEST = 1e-3  # range, over the static deflection, below which ranges count as equal
-# downward, over the static deflection, from which attractors are sought
-OWN_STARTS = (0.0, 0.25, 0.5, 1.0, 2.0)
+# downward, over the static deflection, from which attractors are sought, too
+OWN_STARTS = (0.25, 0.5, 1.0, 2.0)
 EQUILIBRIA = {Outcome.AT_REST, Outcome.STEADY_SLIDING}
 """Kinds of which a case has one attractor."""
 
@@ -102,15 +95,11 @@ class Arrival(NamedTuple):
         return state
 
 
-def arrival(p: Parameters, legs: Sequence[Result]) -> Arrival:
+def arrival(p: Parameters, legs: Sequence[Result], most: int = sys.maxsize) -> Arrival:
     """What a motion has come to at the end of its legs: what rest, eigenvalues of steady sliding or
-    multipliers of a cycle prove; otherwise what the record of its events shows."""
-    return proof(p, legs[-1]) or Arrival(settling_of(legs))
-
-
-def proof(p: Parameters, leg: Result, most: int = sys.maxsize) -> Arrival | None:
-    """What rest, eigenvalues of steady sliding or multipliers of a cycle of up to `most` releases prove
-    at the end of a leg, also that the motion lingers near an unstable cycle."""
+    multipliers of a cycle of up to `most` releases prove, also that it lingers near an unstable cycle;
+    otherwise what the record of its events shows."""
+    leg = legs[-1]
     now = leg.final_state.time
     equilibrium = find_equilibrium(p, leg)
     if equilibrium is not None:
@@ -120,7 +109,7 @@ def proof(p: Parameters, leg: Result, most: int = sys.maxsize) -> Arrival | None
         return Arrival(Settling(Settled.SETTLED, near.cycle.growth_rate, 0.0, now), near=near)
     if near is not None and near.lingers:
         return Arrival(Settling(Settled.CHANGING, near.cycle.growth_rate, 0.0))
-    return None
+    return Arrival(settling_of(legs))
 
 
 def settling_of(legs: Sequence[Result]) -> Settling:
@@ -136,7 +125,9 @@ def settling_of(legs: Sequence[Result]) -> Settling:
     if len(late) >= FEWEST and not np.any(time[kind == STICK_TO_SLIP] > since):
         # from before the record to its end, and not only from each to the next: drifts are slow
         goes_on = losses[0] <= since and end - losses[-1] <= 2 * late.max()
-        period = shortest_period(late) if goes_on else 0
+        period = 0
+        if goes_on:
+            period = shortest_period(late)
         if period and max(float(np.ptp(late[i::period])) for i in range(period)) <= CLOSES:
             visible = CLOSES / (STILL * float(late.mean()))  # relative, as for other records
             return Settling(Settled.SETTLED, least=visible / REPETITION, since=since)
@@ -165,7 +156,9 @@ def settle(
 ) -> tuple[list[Result], Arrival]:
     """Legs of the motion from a state, over a stay (s) that is doubled until it has settled, `longest` s
     at most; and its arrival. The last leg may end early."""
-    begin = 0.0 if state is None else state.time
+    begin = 0.0
+    if state is not None:
+        begin = state.time
     legs = list[Result]()
     while True:
         leg = simulate(p, begin + stay, tol=tol, initial_state=state)
@@ -215,8 +208,7 @@ def regularity(p: Parameters, state: State, tol: float) -> Motion:
     """Regularity of the motion from a state, by its separations, or else its releases, and by its
     largest exponent but that along the motion: zero on a torus, positive in chaos, negative on a
     cycle, however long its period."""
-    duration = SETTLING * FIRST_LEG
-    run = simulate(p, state.time + duration, tol=tol, initial_state=state)
+    run = simulate(p, state.time + RECORD, tol=tol, initial_state=state)
     periodic = Outcome.SEPARATING
     times = event_times(run, LOSS_OF_CONTACT)
     if not times.size:
@@ -234,13 +226,7 @@ def regularity(p: Parameters, state: State, tol: float) -> Motion:
     # otherwise the largest exponent decides; below -90/s it is not resolved by this interval, but
     # such a motion repeats
     largest = lyapunov_exponents(
-        p,
-        duration / 2,
-        count=1,
-        interval=0.25,
-        initial_state=state,
-        tol=tol,
-        leave_out_trivial=True,
+        p, RECORD / 2, count=1, interval=0.25, initial_state=state, tol=tol, leave_out_trivial=True
     )
     rate = float(largest.exponents[0])
     error = float(largest.errors[0])
@@ -252,48 +238,29 @@ def regularity(p: Parameters, state: State, tol: float) -> Motion:
 
 
 class Basins:
-    """The attractors of a case, `known` in the order in which they were found: the stick-slip cycle, and
-    those reached from `OWN_STARTS` and from later starts.
+    """The attractors of a case, `known` in the order in which they were found: those reached from the
+    static start, from `OWN_STARTS` and from later starts, of motions followed to the horizon (s)."""
 
-    Motions are followed to the horizon (s). One that approaches an attractor counts as being on it
-    within a relative difference `near` in range; never with 0.
-
-    static : static deflection under the preload, m
-    smallest : range of the height below which ranges count as equal, m
-    cycle : the stick-slip cycle, if it exists and is stable
-    """
-
-    def __init__(
-        self, p: Parameters, horizon: float, *, near: float = 0.1, tol: float = 1e-10
-    ) -> None:
+    def __init__(self, p: Parameters, horizon: float, *, tol: float = 1e-10) -> None:
         self.p = p
         self.horizon = horizon
-        self.near = near
         self.tol = tol
-        modes = mode_arrays(p)
-        self.static = p.N * float(np.sum(modes.psi**2 / modes.omega**2))
-        self.smallest = max(SMALLEST * self.static, sys.float_info.min)
-        self.map = ReturnMap(p, patient=True)
-        self.cycle: NearCycle | None = None
         self.known: list[Attractor] = []
-        near_start = cycle_of_static_start(p)
-        if isinstance(near_start, NearCycle) and near_start.cycle.stable:
-            self.cycle = near_start
-            self.known.append(self._periodic(near_start, self._segment_of_cycle(near_start)))
+        modes = mode_arrays(p)
+        static = p.N * float(np.sum(modes.psi**2 / modes.omega**2))
+        self.smallest = max(SMALLEST * static, sys.float_info.min)  # ranges below, in m, are equal
+        start = static_start(p)
+        self.follow(start)
         for kick in OWN_STARTS:
-            start = static_start(p)
-            self.follow(perturb(p, start, u=-kick * self.static) if kick else start)
+            self.follow(perturb(p, start, u=-kick * static))
 
     def follow(self, state: State) -> OutcomeResult:
         """Outcome of the motion from a state at time 0; a new attractor is added to `known`."""
         result = OutcomeResult(Outcome.UNDECIDED)
         legs = list[Result]()
-        segments = list[Segment]()
-        steady = False
-        while result.attractor is None and state.time < self.horizon:
-            # a leg; the first takes what the others, which are of one length, leave of the horizon
-            later_legs = (self.horizon - state.time) // FIRST_LEG - 1
-            leg = self._simulate_leg(state, self.horizon - max(later_legs, 0) * FIRST_LEG)
+        end = self.horizon / 2 ** max(0, int(math.log2(self.horizon / FIRST_LEG)))
+        while result.attractor is None and end <= self.horizon:
+            leg = self._simulate_leg(state, end)
             legs.append(leg)
             state = leg.final_state
             result.simulated = state.time
@@ -301,16 +268,8 @@ class Basins:
                 result.first_separation = leg.first_separation
             if not leg.status.complete:
                 return replace(result, outcome=None, failed=leg)
-            segments.append(segment_of(leg))
-
-            # an attractor that the motion approaches, or one on which it is, when it becomes steady,
-            # and at the horizon
-            was_steady, steady = steady, self._is_steady(segments)
-            over = state.time >= self.horizon
-            if self.near:
-                result.attractor = self._approached(segments, state)
-            if result.attractor is None and (over or (self.near and steady and not was_steady)):
-                result.attractor = self._settled_on(legs, segments[-1], steady=steady, over=over)
+            result.attractor = self._attractor(legs)
+            end *= 2
         if result.attractor is not None:
             result.outcome = result.attractor.kind
         return result
@@ -320,11 +279,49 @@ class Basins:
         window = late_window(max(end - 0.5, state.time), end)
         return simulate(self.p, end, window, tol=self.tol, initial_state=state)
 
-    def _segment_of_cycle(self, near: NearCycle) -> Segment:
-        """A segment of a motion on a cycle."""
-        state = near.cycle.state
-        assert state is not None
-        return segment_of(self._simulate_leg(state, state.time + FIRST_LEG))
+    def _attractor(self, legs: Sequence[Result]) -> Attractor | None:
+        """The attractor to which a motion has come, if that is proven or shown by its record, or if its
+        last two legs are as on a known one that is not periodic."""
+        reached = arrival(self.p, legs, LARGEST_PERIOD)
+        last = [segment_of(leg) for leg in legs[-2:]]
+        if not reached.settled:
+            for known in self.known:
+                alike = [self._difference(each, known.segment) <= SAME for each in last]
+                if known.points is None and len(alike) == 2 and all(alike):
+                    return known
+            return None
+        found = Attractor(reached.calm or Outcome.UNDECIDED, last[-1])
+        if reached.near is not None:
+            found = _periodic(reached.near, last[-1])
+        for known in self.known:
+            if self._same(found, known):
+                return known
+        self.known.append(self._described(found, legs[-1], reached))
+        return self.known[-1]
+
+    def _described(self, found: Attractor, leg: Result, reached: Arrival) -> Attractor:
+        """An attractor with the segment on itself, without a transient, and with the kind that its
+        motion shows if nothing is proven."""
+        if reached.calm is Outcome.STEADY_SLIDING:
+            return replace(found, segment=_segment_of_sliding(self.p))
+        if reached.near is not None:
+            state = reached.end(leg)
+            segment = segment_of(self._simulate_leg(state, state.time + FIRST_LEG))
+            return replace(found, segment=segment)
+        if reached.calm is None:
+            return replace(found, kind=regularity(self.p, leg.final_state, self.tol).kind)
+        return found
+
+    def _same(self, first: Attractor, second: Attractor) -> bool:
+        """Whether two attractors are the same: equilibria by their kinds, periodic ones by their
+        fixed points, others by their segments."""
+        kinds = {first.kind, second.kind}
+        if kinds & EQUILIBRIA and Outcome.UNDECIDED not in kinds:
+            return len(kinds) == 1
+        if first.points is not None and second.points is not None:
+            apart = np.linalg.norm(second.points - first.points[0], axis=1)
+            return bool(apart.min() <= SAME_POINT)
+        return self._difference(first.segment, second.segment) <= SAME
 
     def _difference(self, first: Segment, second: Segment) -> float:
         """Largest difference of ranges, rates and shares, relative to the larger one or to a
@@ -342,100 +339,13 @@ class Basins:
         apart = np.abs(np.subtract(a, b)) / np.max([a, b, floors], axis=0)
         return float(apart.max())
 
-    def _approached(self, segments: Sequence[Segment], state: State) -> Attractor | None:
-        """The attractor that a motion approaches: the stick-slip cycle, as its multipliers predict, or
-        the one whose range of the height those of the last legs approach, ever more slowly."""
-        if segments[-1].separation_rate == 0 and self._follows_cycle(state):
-            return self.known[0]
-        ranges = [segment.range for segment in segments[-NEARING:]]
-        others = [each for each in self.known if each.kind is not Outcome.STICK_SLIP]
-        # the height over a rigid disc never changes
-        if self.static == 0 or len(ranges) < NEARING or not others:
-            return None
 
-        # it must be near, and no other one nearly as near
-        last = [_relative_difference(ranges[-1], each.segment.range) for each in others]
-        distance, *rivals = sorted(last)
-        if distance > self.near or (rivals and rivals[0] <= 2 * self.near):
-            return None
-
-        # it must be approached from leg to leg
-        nearest = others[last.index(distance)]
-        distances = [_relative_difference(value, nearest.segment.range) for value in ranges]
-        parts = any(b >= a and b > VARIATION for a, b in pairwise(distances))
-        slows = _rest_of_drift(ranges) <= (2 * distance + VARIATION) * ranges[-1]
-        return nearest if slows and not parts else None
-
-    def _follows_cycle(self, state: State) -> bool:
-        """Whether the motion from a state follows the stick-slip cycle."""
-        if self.cycle is None:
-            return False
-        release = self.map.next_release(state)
-        if not release.reached:
-            return False
-        points = [release.x, *self.map.returns(release.x, self.cycle.cycle.releases - 1)]
-        close = [x for x in points if self.map.apart(x, self.cycle.x) <= NEAR]
-        return bool(close) and self.cycle.follows_multipliers(close[0])
-
-    def _is_steady(self, segments: Sequence[Segment]) -> bool:
-        """Whether the last segments differ so little, and drift so slowly, that a motion may have
-        settled."""
-        last = segments[-SETTLING:]
-        if len(last) < SETTLING:
-            return False
-        ranges = [max(segment.range, self.smallest) for segment in last]
-        varies = max(self._difference(segment, last[-1]) for segment in last) > VARIATION
-        return not varies and _rest_of_drift(ranges) <= SAME / 2 * ranges[-1]
-
-    def _settled_on(
-        self, legs: Sequence[Result], last: Segment, *, steady: bool, over: bool
-    ) -> Attractor | None:
-        """The attractor on which a motion is, if that is proven, the whole record has settled and
-        is `over`, or the last legs are as steady as those on a known attractor; None near an
-        unstable cycle."""
-        reached = proof(self.p, legs[-1], LARGEST_PERIOD)
-        settled = reached is not None or (over and settling_of(legs).answer is Settled.SETTLED)
-        if reached is None:
-            attractor = Attractor(Outcome.UNDECIDED, last)
-        elif reached.near is not None:
-            # segments of a motion that is not steady have a transient
-            segment = last if steady else self._segment_of_cycle(reached.near)
-            attractor = self._periodic(reached.near, segment)
-        elif reached.calm is not None:
-            slides = reached.calm is Outcome.STEADY_SLIDING
-            attractor = Attractor(reached.calm, _segment_of_sliding(self.p) if slides else last)
-        else:
-            return None
-
-        for known in self.known:
-            if self._same(attractor, known):
-                return known if settled or steady else None
-        if not settled:
-            return None
-        if reached is None:
-            kind = regularity(self.p, legs[-1].final_state, self.tol).kind
-            attractor = replace(attractor, kind=kind)
-        self.known.append(attractor)
-        return attractor
-
-    def _same(self, first: Attractor, second: Attractor) -> bool:
-        """Whether two attractors are the same: equilibria by their kinds, periodic ones by their
-        fixed points, others by their segments."""
-        kinds = {first.kind, second.kind}
-        if kinds & EQUILIBRIA and Outcome.UNDECIDED not in kinds:
-            return len(kinds) == 1
-        if first.points is not None and second.points is not None:
-            return min(self.map.apart(x, first.points[0]) for x in second.points) <= SAME_POINT
-        return self._difference(first.segment, second.segment) <= SAME
-
-    def _periodic(self, near: NearCycle, segment: Segment) -> Attractor:
-        """A cycle as an attractor, with a segment of a motion on it."""
-        cycle = near.cycle
-        others = near.map.returns(near.x, cycle.releases - 1, may_separate=True)
-        points = np.array([near.x, *others])
-        return Attractor(
-            near.kind, segment, cycle.period, cycle.releases, cycle.growth_rate, points
-        )
+def _periodic(near: NearCycle, segment: Segment) -> Attractor:
+    """A cycle as an attractor, with a segment of a motion."""
+    cycle = near.cycle
+    others = near.map.returns(near.x, cycle.releases - 1, may_separate=True)
+    points = np.array([near.x, *others]) / near.map.deflection
+    return Attractor(near.kind, segment, cycle.period, cycle.releases, cycle.growth_rate, points)
 
 
 def _segment_of_sliding(p: Parameters) -> Segment:
@@ -455,38 +365,15 @@ def random_perturbation(p: Parameters, state: State, energy: float, key: Sequenc
     modes = mode_arrays(p)
     draw = np.random.default_rng(list(key)).standard_normal((4, len(modes.omega)))
     draw[2:, modes.diameters == 0] = 0.0
-    a = draw[0] / modes.omega
-    alpha = draw[1]
-    b = draw[2] / modes.omega
-    beta = draw[3]
-    u = float(modes.psi @ a)
-    velocity = float(modes.psi @ alpha)
-    surface = float(tangential_amplitudes(p) @ beta)
-    squares = p.k * u**2 + p.m * velocity**2 + p.m * surface**2
+    change = {"a": draw[0] / modes.omega, "b": draw[2] / modes.omega}
+    change |= {"alpha": draw[1], "beta": draw[3]}
+    surface = float(tangential_amplitudes(p) @ change["beta"])
+    change |= {"u": float(modes.psi @ change["a"]), "f": surface / p.r_0}
+    velocity = float(modes.psi @ change["alpha"])
+    squares = p.k * change["u"] ** 2 + p.m * velocity**2 + p.m * surface**2
     energy_drawn = 0.5 * (float(np.sum(draw**2)) + squares)
     size = math.sqrt(energy / energy_drawn)
-    slope = float(np.sum(modes.diameters * modes.psi * b))
-    return state.replace(
-        a=state.a + size * a,
-        b=state.b + size * b,
-        alpha=state.alpha + size * alpha,
-        beta=state.beta + size * beta,
-        f=state.f + size * surface / p.r_0,
-        u=state.u + size * u,
-        u_velocity=state.u_velocity + size * (velocity + slip_rate(p, state) * slope),
-    )
-
-
-def _relative_difference(first: float, second: float) -> float:
-    """Difference of two ranges over the larger one."""
-    return abs(first - second) / max(first, second, sys.float_info.min)
-
-
-def _rest_of_drift(values: Sequence[float]) -> float:
-    """Extrapolated rest of a drift of the values, by a geometric series; infinite if the changes do
-    not decrease."""
-    changes = np.diff(values[-4:])
-    before, last = np.abs(changes[-2:])
-    if not (np.all(changes > 0) or np.all(changes < 0)):
-        return 0.0
-    return float(last**2 / (before - last)) if last < before else math.inf
+    slope = float(np.sum(modes.diameters * modes.psi * change["b"]))
+    change["u_velocity"] = velocity + slip_rate(p, state) * slope
+    moved = {name: getattr(state, name) + size * value for name, value in change.items()}
+    return state.replace(**moved)
