@@ -224,21 +224,19 @@ def find_slipping_cycle(p: Parameters, tol: float, guess: State | None) -> Floqu
     """The cycle that slips all the time which Newton's method finds near a state in slip, or the
     smallest one round steady sliding."""
     sliding = steady_sliding(p)
-    where = "round steady sliding"
-    if guess:
-        where = "near the given state"
-    reason = f"no cycle {where} slips all the time"
-    orbit = None
-    map_ = None
     if not sliding.status.exists or min(p.N, p.k_p) <= 0:
         reason = "there is no steady sliding on a spring"
-    else:
-        map_ = SlippingMap(p, tol)
-        if guess is None:
-            orbit = find_slipping_orbit(map_, sliding)
-        elif (passage := map_.next_release(guess)).reached:
-            orbit = newton(map_, passage.x)
-    if map_ is None or orbit is None:
+        return no_cycle(p, tol, CycleStatus.NO_CYCLE, reason, SLIPPING)
+    map_ = SlippingMap(p, tol)
+    orbit = None
+    where = "near the given state"
+    if guess is None:
+        where = "round steady sliding"
+        orbit = find_slipping_orbit(map_, sliding)
+    elif (passage := map_.next_release(guess)).reached:
+        orbit = newton(map_, passage.x)
+    if orbit is None:
+        reason = f"no cycle {where} slips all the time"
         return no_cycle(p, tol, CycleStatus.NO_CYCLE, reason, SLIPPING)
     return cycle_of(map_, orbit, SLIPPING)
 

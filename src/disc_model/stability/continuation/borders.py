@@ -19,6 +19,7 @@ from disc_model.errors import ParameterError, require
 from disc_model.parameters import Parameters
 from disc_model.stability.continuation.arguments import require_interval
 from disc_model.stability.continuation.curve import (
+    DIVERGES,
     CurvePoint,
     Evaluation,
     Rejected,
@@ -27,7 +28,6 @@ from disc_model.stability.continuation.curve import (
     curve_point,
     follow_curve,
     passes,
-    solve,
     spectrum_of,
 )
 from disc_model.stability.continuation.cycles import (
@@ -58,7 +58,8 @@ SHARPEST = 0.8
 LEAST_RESEMBLANCE = 0.6  # of a multiplier's eigenvectors at two neighbouring points, at most 1
 DIFFERENCE = 1e-4  # arclength of the difference that gives a multiplier's gradient
 DEFECT = 0.1  # of a step along a border, which turns by up to 37 degrees; see `check_step`
-ON_BORDER = 3e-12  # tolerance of the test function
+ON_BORDER = 1e-10  # value of the test function that counts as zero
+MOST_CORRECTIONS = 12  # of Newton's method at a point of a border
 LARGEST_TURN = 0.2  # largest change of the multiplier in a step along a border
 CLOSES = 0.01  # distance from the first point of a border at which it has closed, over the step
 BORDER_KINDS: Mapping[str, Kind] = {
@@ -88,7 +89,6 @@ class BorderProblem:
 
     def __init__(self, kind: Kind, p: Parameters, names: Sequence[str], tol: float) -> None:
         self.kind = kind
-        self.tol = ON_BORDER
         self.cycles = CycleProblem(p, names, [parameter_scale(p, name) for name in names], tol)
         self.column = np.zeros(self.cycles.n)
         self.row = np.zeros(self.cycles.n)
@@ -98,9 +98,11 @@ class BorderProblem:
         """The point of the border next to a cycle of the case at the point x of its section, with
         `mu` as its critical multiplier."""
         z = self.cycles.place(x)
-        self._keep_vectors(self.cycles.evaluate(z).jacobian, mu)
-        found = self.evaluate(z)
-        return self._corrected(curve_point(z, found, np.linalg.svd(found.by)[2][-1]), 0.0)
+        found = self.cycles.evaluate(z)
+        self._keep_vectors(found.jacobian, mu)
+        extended = self._extended(z, found, self._test(found.jacobian)[1])
+        along = np.linalg.svd(extended.by)[2][-1]
+        return self._corrected(curve_point(z, extended, along), 0.0)
 
     def next_point(self, points: Sequence[CurvePoint], ds: float) -> list[CurvePoint]:
         """The border's point at arclength ds beyond the last of some; raises `Rejected` if a
@@ -113,21 +115,30 @@ class BorderProblem:
         return [ahead]
 
     def _corrected(self, start: CurvePoint, ds: float) -> CurvePoint:
-        """The border's point in the plane normal to the tangent at arclength ds."""
-        rows = start.tangent[None, :]
-        matrix = np.vstack([start.found.by, rows])
-        return curve_point(*solve(self, start.z + ds * rows[0], rows, matrix), rows[0])
-
-    def residual(self, z: Array) -> Array:
-        """F of a cycle, and the test function."""
-        found = self.cycles.evaluate(z)
-        return np.append(found.residual, self._test(found.jacobian)[0])
-
-    def evaluate(self, z: Array) -> Evaluation:
-        """F of a cycle and the test function, with their derivatives: of the latter, which are by
-        differences, within the surface of cycles."""
+        """The border's point in the plane normal to the tangent at arclength ds, where F and the test
+        function vanish."""
+        along = start.tangent
+        guess = start.z + ds * along
+        gradient = start.found.by[-1]
+        z = guess
         found = self.cycles.evaluate(z)
         value, mu = self._test(found.jacobian)
+        for _ in range(MOST_CORRECTIONS):
+            right = np.concatenate([found.residual, [value, along @ (z - guess)]])
+            if float(np.linalg.norm(right)) < ON_BORDER:
+                return curve_point(z, self._extended(z, found, mu), along)
+            move = -newton_step(np.vstack([found.by, gradient, along]), right)
+            z = z + move
+            found = self.cycles.evaluate(z)
+            former = value
+            value, mu = self._test(found.jacobian)
+            # Broyden's update: a gradient by differences would take four orbits at each correction
+            gradient = gradient + (value - former - gradient @ move) / (move @ move) * move
+        raise Rejected(DIVERGES)
+
+    def _extended(self, z: Array, found: Evaluation, mu: complex) -> Evaluation:
+        """F of a cycle with the derivative of the test function by differences within the surface of
+        cycles, and with the multiplier and its derivative."""
         self._keep_vectors(found.jacobian, mu)
         basis = np.linalg.svd(found.by)[2][self.cycles.n :]
         changes = np.zeros((2, 2), complex)
@@ -136,14 +147,8 @@ class BorderProblem:
                 beside = self.cycles.evaluate(z + side * DIFFERENCE * unit)
                 changes[i] += side * np.array(self._test(beside.jacobian)) / (2 * DIFFERENCE)
         gradient, turning = changes.T @ basis
-        return Evaluation(
-            np.append(found.residual, value),
-            np.vstack([found.by, gradient.real]),
-            found.orbit,
-            found.jacobian,
-            mu,
-            turning,
-        )
+        by = np.vstack([found.by, gradient.real])
+        return found._replace(by=by, mu=mu, turning=turning)
 
     def _keep_vectors(self, jacobian: Array, mu: complex) -> None:
         """Keep, of a point of the border, the singular vectors that border J - I on a fold, or the
