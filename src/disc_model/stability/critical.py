@@ -27,10 +27,13 @@ from disc_model.engine.jit.cache import compiling
 from disc_model.errors import ParameterError
 from disc_model.parameters import Parameters
 from disc_model.provenance import versions_text
-from disc_model.stability.continuation import Bounds, require_interval
-from disc_model.stability.continuation.arguments import CHANGES
-from disc_model.stability.continuation.curve import Rejected
-from disc_model.stability.continuation.cycles import follow_between
+from disc_model.stability.continuation import (
+    CHANGES,
+    Bounds,
+    Rejected,
+    follow_between,
+    require_interval,
+)
 from disc_model.stability.cycle import STICK_SLIP, find_cycle
 from disc_model.stability.sliding import steady_sliding
 from disc_model.units import Count, CycleTolerance, checked
