@@ -1,6 +1,7 @@
 """What motions come to: multipliers and early judgement against long simulations."""
 
 import math
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -21,7 +22,7 @@ from disc_model.simulation.states import State, perturb, slip_rate, static_start
 from disc_model.stability import attractors
 from disc_model.stability.attractors import Arrival, Basins, random_perturbation
 from disc_model.stability.follower import OutcomeResult, find_outcome, growing
-from disc_model.stability.segments import final_segment
+from disc_model.stability.segments import Segment, final_segment
 
 P14 = Parameters(N=385, Omega=14)
 SMALL = Parameters(N=200, Omega=20, n_diameters=1, c=20.0, D_star=1e-3)
@@ -176,6 +177,21 @@ def test_a_torus_is_an_attractor_once_the_record_shows_that_the_motion_has_settl
     kick = random_perturbation(p, static_start(p), 0.01, (1, 0, 0))
     kinds = [Basins(p, horizon).follow(kick).outcome for horizon in (300.0, 500.0)]
     assert kinds == [Outcome.UNDECIDED, Outcome.QUASI_PERIODIC]
+
+
+def stretch(**changes: float) -> Segment:
+    """Of a separating motion, for tests of what is said of one."""
+    segment = Segment(
+        P_min=0.0,
+        P_max=1.0,
+        u_min=-0.01,
+        u_max=0.01,
+        stick_fraction=0.25,
+        slip_fraction=0.65,
+        separation_fraction=0.10,
+        separation_rate=135.0,
+    )
+    return replace(segment, **changes)
 
 
 def legs_with(losses: Any, releases: Any = (), end: float = 100.0) -> list[Any]:

@@ -20,16 +20,14 @@ from disc_model.errors import Status
 from disc_model.parameters import Parameters
 from disc_model.stability import attractors
 from disc_model.stability.follower import Attractor, NearCycle, OutcomeResult
-from disc_model.stability.segments import Segment
 from disc_model.studies.quantity import HOMES, Range, quantity_of
 from tests.refusals import refusal
+from tests.stability.test_attractor import stretch
 
 P = Parameters(N=385, Omega=14)
 SEPARATED = {"prerun": {"parameters": {"Omega": 15.1}, "time": 70}}
 NARROW = {"distribution": "uniform", "low": 0.9999, "high": 1.0001, "relative": True}
 FALLING = P.replace(Omega=15, mu_s=0.3, mu_k=0.2, friction_decay=2.0, normalization="orthonormal")
-
-SEPARATING = Segment(0.0, 1.0, -0.01, 0.01, 0.25, 0.65, 0.1, 135.0)
 
 
 def function_of(name: str) -> Callable[..., xr.Dataset]:
@@ -339,7 +337,7 @@ def test_a_sweep_has_an_onset_and_an_end_or_says_why_not(
         settled = attractors.Arrival(Settling(Settled.SETTLED))
         for place in [(0, 0), (0, 1), (0, 2), (1, 2), (1, 1), (1, 0)]:
             rate = rates[place[0]][place[1]]
-            late = None if rate is None else replace(SEPARATING, separation_rate=rate)
+            late = None if rate is None else stretch(separation_rate=rate)
             yield place, LOST, late, settled
 
     monkeypatch.setattr(attractors, "sweep", sweep)
@@ -352,11 +350,9 @@ def test_a_sweep_has_an_onset_and_an_end_or_says_why_not(
 
 # ---- Basins
 
-CALM = replace(
-    SEPARATING, u_min=0, u_max=1e-5, separation_rate=0, stick_fraction=0.3, separation_fraction=0
-)
+CALM = stretch(u_min=0, u_max=1e-5, separation_rate=0, stick_fraction=0.3, separation_fraction=0)
 NEAR = Attractor(Outcome.STICK_SLIP, CALM, 0.015, 1, -0.1, np.zeros((1, 2)))
-APART = Attractor(Outcome.SEPARATING, replace(SEPARATING, u_min=0, u_max=0.03))
+APART = Attractor(Outcome.SEPARATING, stretch(u_min=0, u_max=0.03))
 UNDECIDED = OutcomeResult(Outcome.UNDECIDED, 60.0)
 FAILED = OutcomeResult(None, 1.0, failed=LOST)
 
@@ -551,32 +547,33 @@ def test_samples_are_of_the_distributions_and_more_of_them_keep_the_first(
 # ---- Regions
 
 
-def near() -> NearCycle:
+def near(*, stable: bool = False) -> NearCycle:
     """A cycle that the static start follows."""
     known = {"growth_rate": 0.1, "period": 0.015, "releases": 1, "separations": 0, "parameters": P}
-    cycle: Any = SimpleNamespace(stable=False, **known)
+    cycle: Any = SimpleNamespace(stable=stable, **known)
     map_: Any = SimpleNamespace(deflection=1.0)
     return NearCycle(cycle, True, map_, np.zeros(2), np.zeros(2), np.eye(2))
 
 
 NO_CYCLE = SimpleNamespace(motion=CycleStatus.NO_CYCLE)
 STARTS = [
-    # what the search finds, what is said of the cycle
-    (near(), "followed"),
-    (NO_CYCLE, "no_cycle"),
+    # what the search finds, method, outcome, what is said of the cycle
+    (near(stable=True), "multipliers", "stick_slip", "followed"),
+    (near(), "simulation", "separation", "followed"),
+    (NO_CYCLE, "simulation", "separation", "no_cycle"),
 ]
 
 
-@pytest.mark.parametrize(("start", "cycle"), STARTS)
-def test_a_region_says_which_cycle_is_followed(
-    start: Any, cycle: str, monkeypatch: pytest.MonkeyPatch
+@pytest.mark.parametrize(("start", "method", "outcome", "cycle"), STARTS)
+def test_a_region_says_how_its_outcome_is_known(
+    start: Any, method: str, outcome: str, cycle: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     separation = OutcomeResult(Outcome.SEPARATION, 1.0, first_separation=40.0)
     monkeypatch.setattr("disc_model.stability.follower.cycle_of_static_start", lambda p: start)
     monkeypatch.setattr("disc_model.stability.follower.find_outcome", lambda *_, **__: separation)
     found = dm.regions(P, 10)
-    assert found["method"].item() == "simulation"
-    assert found["outcome"].item() == "separation"
+    assert found["method"].item() == method
+    assert found["outcome"].item() == outcome
     assert found["cycle"].item() == cycle
 
 

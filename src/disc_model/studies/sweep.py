@@ -74,45 +74,39 @@ def sweep(
     (Frozen({'N_Omega': 2}), array([385., 300.]))
     """
     raise_faults(foreign_case(case))
-    over = over or {}
     arguments = dict(inspect.signature(function).parameters)
     arguments.pop(next(iter(arguments), ""), None)
+    over = over or {}
     varied = {name: x for name, x in named.items() if is_of_case(name) and name not in arguments}
     options = {name: x for name, x in named.items() if name not in varied}
-    _refuse_unknown((*options, *over), arguments)
+    if not any(x.kind is x.VAR_KEYWORD for x in arguments.values()):
+        known = [*arguments, *Parameters.model_fields]
+        rule = "is no number of the case, and no argument of the function"
+        unknown = [name for name in (*options, *over) if name not in arguments]
+        raise_faults([Fault((name,), "", rule + suggestion(name, known)) for name in unknown])
     dims = _dimensions(case, varied, dict({} if zip is None else zip), over)
     points = expand(dims)
     name = str(getattr(function, "__name__", type(function).__name__))
     call = Call(partial(_gathered, function, name, {*points, *dims}), case.replace, options)
     rows: Points = points.to_dict("records")
     results = compute(call, rows, map=map, title=name, progress=progress)
-    if all(
-        text.startswith("ParameterError") for text in (str(x["message"].values) for x in results)
-    ):
-        raise ParameterError(f"no point of the sweep has a result: {results[0]['message'].item()}")
     if name == "steady_sliding":
         _number_fastest(case, rows, results)
     found = stack(results, dims)
+    messages = found["message"].values.ravel().tolist()
+    if all(text.startswith("ParameterError") for text in messages):
+        raise ParameterError(f"no point of the sweep has a result: {messages[0]}")
     for said in ("status", "message"):
         found[said].attrs.setdefault("long_name", COMMON[said].long_name)
     defaults = {key: x.default for key, x in arguments.items()}
     used = {key: x for key, x in defaults.items() if isinstance(x, bool | int | float | str)}
-    return found.assign_attrs(
-        function=name,
-        options=json.dumps(used | options, sort_keys=True, default=repr),
-        parameters=case.canonical_json,
-        versions=versions_text(),
-    )
-
-
-def _refuse_unknown(names: Sequence[str], arguments: Mapping[str, inspect.Parameter]) -> None:
-    """Raise `ParameterError` for names that are no arguments of the function."""
-    if any(each.kind is each.VAR_KEYWORD for each in arguments.values()):
-        return
-    known = [*arguments, *Parameters.model_fields]
-    rule = "is no number of the case, and no argument of the function"
-    unknown = [name for name in names if name not in arguments]
-    raise_faults([Fault((name,), "", rule + suggestion(name, known)) for name in unknown])
+    attrs = {
+        "function": name,
+        "options": json.dumps(used | options, sort_keys=True, default=repr),
+        "parameters": case.canonical_json,
+        "versions": versions_text(),
+    }
+    return found.assign_attrs(attrs)
 
 
 def _number_fastest(case: Parameters, rows: Points, results: Sequence[xr.Dataset]) -> None:
@@ -129,12 +123,15 @@ def _number_fastest(case: Parameters, rows: Points, results: Sequence[xr.Dataset
 def _gathered(
     function: Callable[..., Any], name: str, taken: set[str], case: Parameters, /, **options: Any
 ) -> xr.Dataset:
-    """What a function returns, as a dataset without variables that the sweep has itself."""
+    """What a function returns, as a dataset without variables and dimensions of one value that the sweep
+    has itself."""
     result = result_dataset(function(case, **options), name)
-    shared = taken.intersection(map(str, result.dims))
-    rule = f"returned values along {', '.join(shared)}, which the sweep varies"
-    require((not shared, "function", "", rule))
-    return result.drop_vars(taken, errors="ignore")
+    shared = [dim for dim in result.dims if dim in taken]
+    for dim in shared:
+        if result.sizes[dim] > 1:
+            rule = f"returned values along {dim}, which is a dimension of the sweep"
+            raise ParameterError(Fault(("function",), "", rule))
+    return result.squeeze(shared, drop=True).drop_vars(taken, errors="ignore")
 
 
 def _dimensions(

@@ -5,7 +5,6 @@ there.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -96,7 +95,9 @@ def branches(
     1
     """
     from disc_model.stability.attractors import sweep
+    from disc_model.stability.continuation import StepControl, continue_cycle
     from disc_model.stability.cycle import find_cycle
+    from disc_model.stability.segments import extremes_of_cycle
     from disc_model.stability.sliding import steady_sliding
 
     values = values_between(bounds, step)
@@ -104,7 +105,32 @@ def branches(
     swept = {}
     for variable in ("sweep_range", "sweep_separation_rate", "sweep_settled"):
         swept[variable] = columns[variable].empty((2, len(values)))
-    family = Family(name, (values[0], values[-1]))
+    # leaves room for special points between those computed: as a step turns by 26 degrees at most, at least six
+    # lie from fold to fold; with other bifurcations there is one among nine to eighteen points
+    steps = StepControl(longest=LONGEST, max_points=5 * MOST_POINTS // 6, beyond=True)
+    rows: list[dict[str, Any]] = []
+    failures = 0
+    left_out = 0
+
+    def follow(cycle: FloquetResult, **how: Any) -> None:
+        """Continue a cycle in both directions, unless a known branch passes there."""
+        nonlocal failures, left_out
+        assert cycle.state is not None
+        low, high = extremes_of_cycle(cycle.parameters, cycle.state, cycle.period)
+        value = cycle.parameters.numbers[name]
+        if any(_passes(row, value, cycle.period, high - low) for row in rows):
+            return
+        if len(rows) >= MOST_BRANCHES:
+            left_out += 1
+            return
+        ends = (values[0], values[-1])
+        try:
+            branch = continue_cycle(cycle.parameters, name, ends, steps=steps, **how)
+        except NUMERICAL:
+            failures += 1
+        else:
+            rows.extend(_stretches(branch, cycle.releases))
+
     remarks = []
     lowest = 0 if sweep_from is None else int(np.searchsorted(values, sweep_from))
     stays = sweep(case, name, values, dwell, max_dwell, EVALUATED, tol, lowest)
@@ -119,67 +145,28 @@ def branches(
         if way == 0 or i < lowest:
             near_start = find_cycle(result.parameters)
             if near_start.state is not None:
-                family.follow(near_start)
+                follow(near_start)
         if reached.near is not None and reached.near.cycle.releases <= MOST_RELEASES:
             cycle = reached.near.cycle
-            family.follow(cycle, guess=cycle.state, releases=cycle.releases)
+            follow(cycle, guess=cycle.state, releases=cycle.releases)
     found_values: dict[str, Any] = {
-        **listed(family.rows),
+        **listed(rows),
         **swept,
         "status": "failed" if remarks else "ok",
-        "n_branches": len(family.rows),
-        "n_continuation_failures": family.failures,
+        "n_branches": len(rows),
+        "n_continuation_failures": failures,
         "sliding_growth_rate": [
             steady_sliding(case.replace(**{name: x})).growth_rate for x in values
         ],
     }
-    if family.left_out:
-        cycles = counted(family.left_out, "cycle")
-        remarks.append(f"{cycles} of further branches, for which there is no room")
+    if left_out:
+        remarks.append(
+            f"{counted(left_out, 'cycle')} of further branches, for which there is no room"
+        )
     own: dict[str, Any] = {"branch": range(MOST_BRANCHES), "branch_point": range(2 * MOST_POINTS)}
     message = "; ".join(remarks)
     own |= {"direction": DIRECTIONS, "sweep_value": values}
     return found("branches", found_values, message, **own)
-
-
-@dataclass
-class Family:
-    """Branches along one number of the case.
-
-    name, ends : of the number, and between which values
-    rows : columns of each stretch of a branch
-    failures, left_out : cycles that could not be continued, and those for which there was no room
-    """
-
-    name: str
-    ends: tuple[float, float]
-    rows: list[dict[str, Any]] = field(default_factory=list)
-    failures: int = 0
-    left_out: int = 0
-
-    def follow(self, cycle: FloquetResult, **how: Any) -> None:
-        """Continue a cycle in both directions, unless a known branch passes there."""
-        from disc_model.stability.continuation import StepControl, continue_cycle
-        from disc_model.stability.segments import extremes_of_cycle
-
-        case = cycle.parameters
-        assert cycle.state is not None
-        low, high = extremes_of_cycle(case, cycle.state, cycle.period)
-        value = case.numbers[self.name]
-        if any(_passes(row, value, cycle.period, high - low) for row in self.rows):
-            return
-        if len(self.rows) >= MOST_BRANCHES:
-            self.left_out += 1
-            return
-        # leaves room for special points between those computed: as a step turns by 26 degrees at most, at least six
-        # lie from fold to fold; with other bifurcations there is one among nine to eighteen points
-        steps = StepControl(longest=LONGEST, max_points=5 * MOST_POINTS // 6, beyond=True)
-        try:
-            branch = continue_cycle(case, self.name, self.ends, steps=steps, **how)
-        except NUMERICAL:
-            self.failures += 1
-        else:
-            self.rows += _stretches(branch, cycle.releases)
 
 
 def _stretches(branch: Branch, releases: int) -> list[dict[str, Any]]:

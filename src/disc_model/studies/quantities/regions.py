@@ -5,7 +5,6 @@ Multipliers give the outcome where the start stays on its cycle. Elsewhere the s
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING, Any
 
 import xarray as xr
@@ -18,7 +17,6 @@ from disc_model.units import Finite, Seconds, Tolerance
 if TYPE_CHECKING:
     from disc_model.simulation.states import State
     from disc_model.stability.cycle import FloquetResult
-    from disc_model.stability.follower import NearCycle, OutcomeResult
 
 
 def _come_to(case: Parameters, *, horizon: float, tol: float, **_: Any) -> State:
@@ -67,50 +65,37 @@ def regions(
     from disc_model.stability.follower import NearCycle, cycle_of_static_start, find_outcome
 
     start = cycle_of_static_start(case)
-    followed = start if isinstance(start, NearCycle) and start.follows_cycle else None
-    is_timed = any(place.items() <= case.numbers.items() for place in timed)
-    compared_with = () if is_timed else (horizon,)
-    result = find_outcome(case, horizon, tol=tol, near=start, compared_with=compared_with)
-    method = "simulation" if result.simulated else "multipliers"
-    values: dict[str, Any] = {
-        "method": "extrapolation" if result.extrapolated else method,
-        "status": result.status,
-        "outcome": result.word,
-        "simulated_time": result.simulated or math.nan,
-        "first_separation": result.timed_separation,
-    }
-    if followed is None or result.outcome is Outcome.STICK_SLIP:
-        followed = result.near
+    near = start if isinstance(start, NearCycle) else None
+    followed = near if near and near.follows_cycle else None
+    values: dict[str, Any] = {"status": "ok", "method": "multipliers"}
+    message = ""
+    if followed and followed.cycle.stable:
+        values["outcome"] = Outcome.STICK_SLIP
+    else:
+        is_timed = any(place.items() <= case.numbers.items() for place in timed)
+        compared_with = () if is_timed else (horizon,)
+        result = find_outcome(case, horizon, tol=tol, near=start, compared_with=compared_with)
+        method = "simulation" if result.simulated else "multipliers"
+        values |= {
+            "method": "extrapolation" if result.extrapolated else method,
+            "status": result.status,
+            "outcome": result.word,
+            "simulated_time": result.simulated,
+            "first_separation": result.timed_separation,
+        }
+        message = result.message
+        if followed is None or result.outcome is Outcome.STICK_SLIP:
+            followed = result.near
     if followed is not None:
         values |= _columns_of(followed.cycle)
+    elif values["outcome"] == Outcome.STEADY_SLIDING:
+        values["cycle"] = "steady_sliding"
+    elif isinstance(start, NearCycle):
+        values["cycle"] = "nearby_only"
     else:
-        values["cycle"] = _without_cycle(start, values["outcome"])
-    return found("regions", values, result.message)
-
-
-def _followed(result: OutcomeResult) -> dict[str, Any]:
-    """The columns of a motion that was followed."""
-    method = "multipliers"
-    if result.extrapolated:
-        method = "extrapolation"
-    elif result.simulated:
-        method = "simulation"
-    return {
-        "method": method,
-        "status": result.status,
-        "outcome": result.word,
-        "simulated_time": result.simulated,
-        "first_separation": result.timed_separation,
-    }
-
-
-def _without_cycle(start: FloquetResult | NearCycle, outcome: str) -> str:
-    """What there is in place of a cycle that the static start follows, by what was found near it."""
-    if outcome == Outcome.STEADY_SLIDING:
-        return "steady_sliding"
-    motion = getattr(start, "motion", "nearby_only")
-    known = ("nearby_only", *STABLE_CYCLES, "unstable_sliding")
-    return motion if motion in known else "no_cycle"
+        of_search = (*STABLE_CYCLES, "unstable_sliding")
+        values["cycle"] = start.motion if start.motion in of_search else "no_cycle"
+    return found("regions", values, message)
 
 
 def _columns_of(cycle: FloquetResult) -> dict[str, Any]:
