@@ -193,22 +193,6 @@ def test_columns_of_stiff_springs_took_steps_too_long_for_them(stiff):
     np.testing.assert_allclose(jacobian, expected, rtol=0, atol=2e-3)
 
 
-def test_the_jacobian_agrees_with_differences_along_a_direction() -> None:
-    """Quick enough without compilation, unlike a whole Jacobian by differences."""
-    map_ = ReturnMap(P)
-    x = map_.static
-    along = np.linalg.norm(x) * np.cos(np.arange(map_.size))
-
-    def end(share: float) -> np.ndarray:
-        return map_.evaluate(x + share * along, tangent=False).end
-
-    expected = differences(end, 1e-3)
-    found = map_.evaluate(x).jacobian @ along
-    # 4e-11, whatever the step between 3e-5 and 3e-3
-    largest = 1e-9 * np.linalg.norm(expected)
-    assert np.linalg.norm(found - expected) < largest
-
-
 def check_derivatives(
     map_: ReturnMap, x: np.ndarray, step: Callable[[str], float], names=PARAMETERS
 ) -> None:

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import disc_model as dm
-from disc_model.stability.return_map import ENDS, PARAMETERS, RETURNED, VANISHED
+from disc_model.stability.return_map import ENDS, PARAMETERS, RETURNED
 from disc_model.stability.slipping import SlippingMap, find_slipping_orbit
 from tests.contact_laws import COMPILES
 from tests.engine.test_saltation import differences
@@ -93,27 +93,3 @@ def test_a_motion_that_stops_or_loses_contact_does_not_return(share, end) -> Non
     map_, x = cycle_on_section(DISC)
     sliding = map_.point_of(dm.steady_sliding(DISC).rows)
     assert ENDS[map_.evaluate(sliding + share * (x - sliding)).outcome] == end
-
-
-def test_steady_sliding_is_no_cycle() -> None:
-    map_ = SlippingMap(DISC)
-    sliding = map_.point_of(dm.steady_sliding(DISC).rows)
-    assert map_.evaluate(sliding).outcome == VANISHED
-    # nor is the side on which the spring is shortest
-    _, x = cycle_on_section(DISC)
-    assert map_.evaluate(2 * sliding - x).outcome == VANISHED
-
-
-def test_a_motion_comes_to_the_section_next_where_its_spring_is_longest() -> None:
-    map_, x = cycle_on_section(DISC)
-    start = map_.state(x)
-    samples = {"all": dm.Window(rate=1e5)}
-    run = dm.simulate(DISC, 0.03, samples, initial_state=start)
-    early = dm.simulate(DISC, 0.003, initial_state=start).final_state
-    passage = map_.next_release(early)
-    assert passage.reached
-    psi = map_.state(passage.x).psi
-    highest = run["all"]["psi"].sel(time=slice(0.003, None)).max().item()
-    # of a parabola between samples: 2e-5 of a radian of the motion, squared
-    assert psi == pytest.approx(highest, rel=1e-6)
-    assert not map_.next_release(dm.simulate(DISC, 1e-4).final_state).reached  # in stick

@@ -547,10 +547,10 @@ def test_samples_are_of_the_distributions_and_more_of_them_keep_the_first(
 # ---- Regions
 
 
-def near(*, stable: bool = False, slow: bool = False) -> NearCycle:
-    """A cycle that the static start follows; `slow` if it grows too slowly to leave it."""
+def near(*, stable: bool = False) -> NearCycle:
+    """A cycle that the static start follows."""
     known = {"growth_rate": 0.1, "period": 0.015, "releases": 1, "separations": 0, "parameters": P}
-    cycle: Any = SimpleNamespace(stable=stable, slow=slow, **known)
+    cycle: Any = SimpleNamespace(stable=stable, **known)
     map_: Any = SimpleNamespace(deflection=1.0)
     return NearCycle(cycle, True, map_, np.zeros(2), np.zeros(2), np.eye(2))
 
@@ -559,7 +559,6 @@ NO_CYCLE = SimpleNamespace(motion=CycleStatus.NO_CYCLE)
 STARTS = [
     # what the search finds, method, outcome, what is said of the cycle
     (near(stable=True), "multipliers", "stick_slip", "followed"),
-    (near(slow=True), "multipliers", "growing", "followed"),
     (near(), "simulation", "separation", "followed"),
     (NO_CYCLE, "simulation", "separation", "no_cycle"),
 ]
@@ -572,7 +571,6 @@ def test_a_region_says_how_its_outcome_is_known(
     separation = OutcomeResult(Outcome.SEPARATION, 1.0, first_separation=40.0)
     monkeypatch.setattr("disc_model.stability.follower.cycle_of_static_start", lambda p: start)
     monkeypatch.setattr("disc_model.stability.follower.find_outcome", lambda *_, **__: separation)
-    monkeypatch.setattr(NearCycle, "stays_linear_until", lambda self, horizon: self.cycle.slow)
     found = dm.regions(P, 10)
     assert found["method"].item() == method
     assert found["outcome"].item() == outcome

@@ -4,7 +4,7 @@ stability."""
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Annotated, Any, Literal, NamedTuple
@@ -12,9 +12,9 @@ from typing import Annotated, Any, Literal, NamedTuple
 import numpy as np
 import xarray as xr
 from pydantic import Field
-from scipy.optimize import brentq, linear_sum_assignment
+from scipy.optimize import brentq
 
-from disc_model.arrays import Array, ComplexArray, EqualByValue, Mask
+from disc_model.arrays import Array, EqualByValue, Mask
 from disc_model.data.variables import (
     OF_RESULTS,
     STABLE_CYCLES,
@@ -24,9 +24,16 @@ from disc_model.data.variables import (
 )
 from disc_model.display import Bar, counted, drawings, progress_bar
 from disc_model.engine.jit.cache import compiling
+from disc_model.errors import ParameterError
 from disc_model.parameters import Parameters
 from disc_model.provenance import versions_text
-from disc_model.stability.continuation import Bounds, are_slow, passings, require_interval, turns_of
+from disc_model.stability.continuation import (
+    CHANGES,
+    Bounds,
+    Rejected,
+    follow_between,
+    require_interval,
+)
 from disc_model.stability.cycle import STICK_SLIP, find_cycle
 from disc_model.stability.sliding import steady_sliding
 from disc_model.units import Count, CycleTolerance, checked
@@ -47,13 +54,7 @@ OF_PARAMETER = ("value", "border", "resolution", "crossings")
 """Those in the unit of the parameter."""
 MOST_POINTS = 100_000  # largest number of values: an hour of work
 SHORTEST = 1e-6  # of the range, to which crossings are located
-NARROWEST = 1e-5  # of the range: between values closer than that no further ones are computed
-ROUNDS = 8  # times that places of suspected instability are predicted anew
-# rad, of a multiplier from one value to the next: beyond, it may be taken for another
-LONGEST_TURN = 0.3
-# the angles of a pair at two values, from the real axis, over the longest turn of any multiplier:
-# up to this, the pair may have met the axis in between, and have left it again on the same side
-MAY_HAVE_MET = 1.5
+LONGEST = 0.005  # arclength of a step of the branch between two values
 # relative change of the period at a change of stability, of two cycles on no one branch
 JUMP = 1e-4
 
@@ -81,7 +82,7 @@ class Critical(EqualByValue):
     values, growth_rate : shape (m,), the values computed, ascending, and growth rates of the cycle, or of steady
         sliding (1/s; nan without). Where steady sliding takes the place of a cycle, `sliding_growth_rate` has its own
     resolution : the largest step between neighbouring values computed. Narrower stretches of stability or of
-        instability may be missed, though they are looked for where multipliers meet
+        instability may be missed, though the branch of cycles is followed from each to the next
 
     Examples
     --------
@@ -116,7 +117,9 @@ class Critical(EqualByValue):
     @property
     def border(self) -> float:
         stays = len(self.crossings) and self.unstable_above[-1]
-        return float(self.crossings[-1]) if stays else math.nan
+        if stays:
+            return float(self.crossings[-1])
+        return math.nan
 
     @property
     def unstable(self) -> Array:
@@ -130,7 +133,9 @@ class Critical(EqualByValue):
     def message(self) -> str:
         said = []
         if math.isnan(self.value):
-            of = "steady sliding has no growing mode" if self.kind == SLIDING else "it is stable"
+            of = "it is stable"
+            if self.kind == SLIDING:
+                of = "steady sliding has no growing mode"
             said.append(f"{of} at all {len(self.values)} values computed")
         elif self.at_lower_bound:
             at_bound = value_with_unit(self.name, self.value)
@@ -215,10 +220,10 @@ def critical(
     where a stable one exists: `continue_cycle` follows it to its fold, and `outcome` simulates the
     motion. Where no cycle is found and stick-slip goes on, the motion counts as unstable.
 
-    It is computed at equal steps, between which a window may be missed. Instability often lies in much
-    narrower tongues, where multipliers meet on the unit circle. Their angles change smoothly, so that
-    these places are predicted from neighbouring values, and computed as well. Of steady sliding
-    nothing is computed between the values: growth in narrower windows is missed.
+    It is computed at equal steps. Instability often lies in much narrower tongues, where multipliers meet
+    on the unit circle: the branch of cycles is followed from each value to the next, and the places where
+    its stability changes are computed as well. Of steady sliding nothing is computed between the
+    values: growth in narrower windows is missed.
 
     Parameters
     ----------
@@ -267,9 +272,9 @@ def critical(
         scan = Scan(case, name, tol, kind, bar)
         for value in values:
             scan.at(value)
-        if kind != SLIDING:
-            look_for_tongues(scan, NARROWEST * (high - low))
         shortest = SHORTEST * (high - low)
+        if kind != SLIDING:
+            look_for_tongues(scan, values, shortest / 2)
         scan.locate(shortest)
         changes = [(above, scan.at(below)) for below, above in scan.changes()]
         jumps = [
@@ -292,13 +297,12 @@ def critical(
 
 class Motion(NamedTuple):
     """A motion: whether small disturbances die out, its growth rate, that of steady sliding if it is
-    this motion (1/s, nan without one), its period (s), and its multipliers or eigenvalues."""
+    this motion (1/s, nan without one), and its period (s)."""
 
     stable: bool
     growth_rate: float
     sliding_growth_rate: float
     period: float
-    spectrum: ComplexArray
 
 
 class Scan:
@@ -325,12 +329,14 @@ class Scan:
             found = steady_sliding(case)
             stable = found.status.exists and not found.growing.size
             rate = found.growth_rate
-            return Motion(stable, rate, rate, math.nan, found.eigenvalues)
+            return Motion(stable, rate, rate, math.nan)
         cycle = find_cycle(case, self.tol)
         slides = cycle.motion in ("steady_sliding", "unstable_sliding")
-        rate = cycle.sliding_growth_rate if slides else math.nan
+        rate = math.nan
+        if slides:
+            rate = cycle.sliding_growth_rate
         stable = cycle.motion in STABLE_CYCLES
-        return Motion(stable, cycle.growth_rate, rate, cycle.period, cycle.multipliers)
+        return Motion(stable, cycle.growth_rate, rate, cycle.period)
 
     def jumps(self, low: float, high: float) -> bool:
         """Whether cycles at two values are none of one branch, by their periods."""
@@ -349,7 +355,9 @@ class Scan:
             """A number that has the sign of growth: its rate, 1/s; that of a motion without one, or
             of another stability than its own rate, is 1 or -1."""
             stable, own, *_ = self.at(x)
-            return own if math.isfinite(own) and (own < 0) == stable else 1.0 - 2.0 * stable
+            if math.isfinite(own) and (own < 0) == stable:
+                return own
+            return 1.0 - 2.0 * stable
 
         wide = True
         while wide:
@@ -360,37 +368,16 @@ class Scan:
                     wide = True
 
 
-def look_for_tongues(scan: Scan, narrowest: float) -> None:
-    """Compute further values where the cycles beside them leave a change of stability in doubt, none
-    closer than `narrowest` to another one."""
-    examined = set[tuple[float, float]]()
-    for _ in range(ROUNDS):
-        gaps = set(pairwise(sorted(scan.motions))) - examined
-        examined |= gaps
-        for low, high in sorted(gaps):
-            for share in _doubtful_shares(scan.at(low).spectrum, scan.at(high).spectrum):
-                if min(share, 1 - share) * (high - low) > narrowest:
-                    scan.at(low + share * (high - low))
-
-
-def _doubtful_shares(first: ComplexArray, second: ComplexArray) -> list[float]:
-    """Shares of the way from one cycle to another at which stability may change, or the cycle
-    end, by their multipliers."""
-    if not (len(first) and len(second)):
-        return [0.5] if len(first) != len(second) else []
-    rows, columns = linear_sum_assignment(np.abs(first[:, None] - second[None, :]))
-    before, after = first[rows], second[columns]
-    between = turns_of(before, after)
-    shares = {each.share for each in passings(between) if 0 < each.share < 1}
-    longest = float(np.abs(between.turns).max(initial=0))
-    # a pair that passes through the real axis looks like one that has turned back
-    angles = np.array([between.angles, between.angles + between.turns])
-    for ends in (angles, math.pi - angles):
-        way = ends.sum(axis=0)
-        may_have_met = (ends > 0).all(axis=0) & (way <= MAY_HAVE_MET * longest)
-        shares.update((ends[0][may_have_met] / way[may_have_met]).tolist())
-    slow = are_slow(before, after)
-    on_axis = [np.sum(slow & (each.imag == 0)) for each in (before, after)]
-    if longest > LONGEST_TURN or on_axis[0] != on_axis[1]:
-        shares.add(0.5)
-    return sorted(shares)
+def look_for_tongues(scan: Scan, values: Sequence[float], aside: float) -> None:
+    """Compute further values on both sides of where the branch of cycles from one value to the next
+    changes its stability."""
+    for low, high in pairwise(values):
+        try:
+            problem, course = follow_between(scan.p, scan.name, low, high, scan.tol, LONGEST)
+        except (ParameterError, Rejected):  # there is none, or it cannot be followed
+            continue
+        for entry in course.entries:
+            if entry.kind in CHANGES:
+                place = float(problem.values(entry.point.z)[0])
+                scan.at(max(place - aside, low))
+                scan.at(min(place + aside, high))

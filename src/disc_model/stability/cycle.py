@@ -9,23 +9,22 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any
+from typing import Any, Final, Literal
 
 import numpy as np
 
 from disc_model.arrays import Array, ComplexArray, EqualByValue
 from disc_model.data.variables import GIVE_A_GUESS, CycleStatus, values_text, with_advice
 from disc_model.display import Summarised, counted, drawings, number_text
-from disc_model.errors import DiscModelError, Fault, violations
+from disc_model.errors import DiscModelError, require
 from disc_model.parameters import Parameters
 from disc_model.simulation.states import State
 from disc_model.stability.return_map import ENDS, Orbit, ReturnMap, newton
 from disc_model.stability.sliding import SteadySliding, steady_sliding
-from disc_model.units import is_whole
 
-STICK_SLIP = "stick_slip"
-SLIPPING = "slipping"
-KINDS = (STICK_SLIP, SLIPPING)
+STICK_SLIP: Final = "stick_slip"
+SLIPPING: Final = "slipping"
+Kind = Literal["stick_slip", "slipping"]
 """Kinds of cycles, by whether they stick."""
 RETURNS_TRIED = (1, 2, 3)  # numbers of releases in a period of the cycles that are sought
 SAME_POINT = 1e-7  # distance of two computations of one point, over its norm
@@ -95,7 +94,9 @@ class FloquetResult(Summarised, EqualByValue):
         return f"FloquetResult(N={p.N:g} N, Omega={p.Omega:g} rad/s: {summary})"
 
     def _summary(self) -> Iterator[tuple[str, object]]:
-        tendency = "die out" if self.stable else "grow"
+        tendency = "grow"
+        if self.stable:
+            tendency = "die out"
         yield "case", values_text(dict(self.parameters))
         yield "status", self.message  # with the period and its events
         yield "advice", "" if self.status is CycleStatus.OK else self.status.advice
@@ -140,9 +141,13 @@ class FloquetResult(Summarised, EqualByValue):
         """What is near the start of the search: a cycle, "stable" or "unstable", "steady_sliding"
         or "unstable_sliding", or else the status."""
         if self.status is CycleStatus.OK:
-            return "stable" if self.stable else "unstable"
+            if self.stable:
+                return "stable"
+            return "unstable"
         if self.status is CycleStatus.NO_STICK_SLIP:
-            return "steady_sliding" if self.sliding.stable else "unstable_sliding"
+            if self.sliding.stable:
+                return "steady_sliding"
+            return "unstable_sliding"
         return self.status.value
 
     def raise_for_status(self) -> "FloquetResult":
@@ -167,18 +172,11 @@ class FloquetResult(Summarised, EqualByValue):
         return drawings().multipliers(ax, self.raise_for_status(), **look)
 
 
-def guess_faults(guess: object, releases: object, kind: object) -> list[Fault]:
-    """Faults of a guess for the search for a cycle, of the number of its releases, and of its
-    kind."""
-    near_state = isinstance(guess, State) and kind != SLIPPING
-    counts = is_whole(releases) and releases >= 1 and (near_state or releases == 1)
-    rule = "must be a whole number >= 1, and 1 without a state to look near, and of a cycle in slip"
-    hint = ", such as its attribute state" if hasattr(guess, "state") else ""
-    return violations(
-        (isinstance(guess, State | None), "guess", guess, f"must be a State{hint}"),
-        (counts, "releases", releases, rule),
-        (kind in KINDS, "kind", kind, f"must be one of {', '.join(KINDS)}"),
-    )
+def require_single(guess: State | None, releases: int, kind: str) -> None:
+    """Raise `ParameterError` if several releases are asked of a cycle that has one."""
+    single = guess is None or kind == SLIPPING
+    rule = "must be 1 without a state to look near, and of a cycle in slip"
+    require((releases == 1 or not single, "releases", releases, rule))
 
 
 def find_cycle(
@@ -198,7 +196,9 @@ def find_cycle(
     release = map_.next_release(guess)
     if not release.reached:
         end = ENDS[release.outcome]
-        status = CycleStatus.NO_STICK_SLIP if end == "time_over" else CycleStatus.NO_CYCLE
+        status = CycleStatus.NO_CYCLE
+        if end == "time_over":
+            status = CycleStatus.NO_STICK_SLIP
         return no_cycle(p, tol, status, f"the motion from the given state does not return: {end}")
     solution = newton(map_, release.x, releases=releases, may_separate=True)
     if solution is None:
@@ -307,7 +307,9 @@ def cycle_of(map_: ReturnMap, orbit: Orbit, kind: str = STICK_SLIP) -> FloquetRe
     names = ("release", "backward release", "slip reversal", "separation")
     named = zip(counts, names, strict=False)
     events = ", ".join(counted(count, name) for count, name in named if count)
-    course = f"with {events}" if events else "that slips all the time"
+    course = "that slips all the time"
+    if events:
+        course = f"with {events}"
     return FloquetResult(
         parameters=map_.parameters,
         tol=map_.tol,
@@ -341,4 +343,6 @@ def bifurcation_type(multiplier: complex) -> str:
     """Kind of bifurcation when a multiplier crosses the unit circle."""
     if multiplier.imag != 0:
         return "neimark_sacker"
-    return "fold" if multiplier.real > 0 else "period_doubling"
+    if multiplier.real > 0:
+        return "fold"
+    return "period_doubling"

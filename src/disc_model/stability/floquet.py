@@ -1,22 +1,33 @@
 """`floquet`: a cycle of a case and its stability."""
 
+from typing import Annotated
+
+from pydantic import Field, InstanceOf
+
 from disc_model.engine.jit.cache import compiling
-from disc_model.errors import raise_faults
-from disc_model.parameters import Parameters, foreign_case
+from disc_model.parameters import Parameters
 from disc_model.simulation.states import State
-from disc_model.stability.cycle import SLIPPING, STICK_SLIP, FloquetResult, find_cycle, guess_faults
+from disc_model.stability.cycle import (
+    SLIPPING,
+    STICK_SLIP,
+    FloquetResult,
+    Kind,
+    find_cycle,
+    require_single,
+)
 from disc_model.stability.slipping import find_slipping_cycle
-from disc_model.units import CYCLE_TOLERANCES, limits_faults
+from disc_model.units import Count, CycleTolerance, checked
 
 
+@checked
 @compiling()
 def floquet(
     case: Parameters,
     *,
-    tol: float = 1e-12,
-    guess: State | None = None,
-    releases: int = 1,
-    kind: str = STICK_SLIP,
+    tol: CycleTolerance = 1e-12,
+    guess: InstanceOf[State] | None = None,
+    releases: Annotated[Count, Field(ge=1)] = 1,
+    kind: Kind = STICK_SLIP,
 ) -> FloquetResult:
     """Find the stick-slip cycle near the static start, or near a given state, and its multipliers.
 
@@ -65,8 +76,7 @@ def floquet(
     >>> between.stable, between.multipliers.real.round(3)
     (False, array([1.262]))
     """
-    wrong = limits_faults("tol", tol, CYCLE_TOLERANCES) + guess_faults(guess, releases, kind)
-    raise_faults(foreign_case(case) + wrong)
+    require_single(guess, releases, kind)
     if kind == SLIPPING:
-        return find_slipping_cycle(case, float(tol), guess)
-    return find_cycle(case, float(tol), guess, releases)
+        return find_slipping_cycle(case, tol, guess)
+    return find_cycle(case, tol, guess, releases)

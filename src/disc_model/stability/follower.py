@@ -118,7 +118,9 @@ class NearCycle:
         cycle = find_cycle(self.cycle.parameters)
         same_period = math.isclose(cycle.period, self.cycle.period, rel_tol=ARRIVED)
         is_same = same_period and cycle.releases == self.cycle.releases
-        return Outcome.STICK_SLIP if is_same else Outcome.OTHER_CYCLE
+        if is_same:
+            return Outcome.STICK_SLIP
+        return Outcome.OTHER_CYCLE
 
     @property
     def lingers(self) -> bool:
@@ -127,10 +129,18 @@ class NearCycle:
         still = LINGERS * self.map.deflection
         return not self.cycle.stable and self._advance(self.x + self.distance, 1).residual <= still
 
+    @np.errstate(over="ignore", invalid="ignore")  # powers of a strongly unstable cycle's Jacobian
     def follows_multipliers(self, x: Array) -> bool:
         """Whether the motion at a point of the section departs or approaches as the multipliers
         predict. On a section of a single point it is on the cycle."""
-        return not len(x) or any(self._is_linear(x - self.x, times) for times in TEST_TIMES)
+        least = 0.0
+        if self.cycle.stable:
+            least = ARRIVED * self.map.deflection
+        rate = self.cycle.growth_rate
+        return not len(x) or any(
+            _is_as_expected(self._motion(x - self.x, times), self.leading, rate, least)
+            for times in TEST_TIMES
+        )
 
     def after(self, wait: float) -> "NearCycle | None":
         """The motion after a time of about `wait` (s); None if it does not return."""
@@ -141,21 +151,6 @@ class NearCycle:
         if not orbit.returned:
             return None
         return replace(self, distance=orbit.end - self.x, time=self.time + orbit.period)
-
-    def stays_linear_until(self, horizon: float) -> bool:
-        """Whether a motion that leaves an unstable cycle is still near it at the horizon (s), as
-        the linear map predicts."""
-        periods = self._periods_left(horizon)
-        near = NEAR * self.map.deflection
-        # the leading part alone excludes most motions, of which powers might overflow
-        if not periods * self._growth + math.log(self._leading_part) <= math.log(2 * near):
-            return False
-        distance = self._ahead(periods)
-        if not np.linalg.norm(distance) <= near:
-            return False
-        return abs(self._excess_rate(distance)) <= LARGEST_OUTSIDE or self._is_linear(
-            distance, TEST_TIMES[0]
-        )
 
     def extrapolate(self, latest: float) -> tuple[Array, float] | None:
         """Where a motion that slowly leaves an unstable cycle comes to as long as the linear map
@@ -169,19 +164,24 @@ class NearCycle:
         rate = self.cycle.growth_rate
         if rate > SLOW_DEPARTURE:
             return None
+        growth = math.log(abs(self.cycle.multipliers[0]))
+        last = max(0, math.ceil((latest - self.time) / self.cycle.period))
+        leading_part = float(abs(self.leading @ self.distance)) * float(np.linalg.norm(self.right))
+        leading_part = max(leading_part, sys.float_info.min)  # for its logarithm
         tested = TEST_TIMES[-1][-1]  # the test after it ends within `NEAR`
         factor = math.exp(rate * tested)
-        last = self._periods_left(latest)
         reached = None
         for share in DEPARTURES:
             size = share * NEAR / factor * self.map.deflection
-            periods = min(math.floor(math.log(size / self._leading_part) / self._growth), last)
-            distance = self._ahead(max(periods, 0))
-            if periods <= 0 or self._share_outside(distance) > LARGEST_OUTSIDE:
+            periods = min(math.floor(math.log(size / leading_part) / growth), last)
+            if periods <= 0:
+                continue
+            distance = np.linalg.matrix_power(self.jacobian, periods) @ self.distance
+            if self._share_outside(distance) > LARGEST_OUTSIDE:
                 continue  # parts of other multipliers have not decayed yet
-            excess = math.inf
-            if np.linalg.norm(distance) <= NEAR * self.map.deflection:
-                excess = self._excess_rate(distance)
+            if not np.linalg.norm(distance) <= NEAR * self.map.deflection:
+                break
+            excess = self._excess_rate(distance)
             if abs(excess) > LARGEST_EXCESS:
                 break
             gained = excess * tested / (factor**2 - 1)
@@ -189,25 +189,6 @@ class NearCycle:
             if periods == last:
                 break
         return reached
-
-    @property
-    def _growth(self) -> float:
-        """Logarithm of the leading multiplier's modulus."""
-        return math.log(abs(self.cycle.multipliers[0]))
-
-    @property
-    def _leading_part(self) -> float:
-        """Size of the leading multiplier's part of the distance; above zero, for its logarithm."""
-        part = float(abs(self.leading @ self.distance)) * float(np.linalg.norm(self.right))
-        return max(part, sys.float_info.min)
-
-    def _periods_left(self, horizon: float) -> int:
-        """Periods of the cycle from `time` to the horizon (s)."""
-        return max(0, math.ceil((horizon - self.time) / self.cycle.period))
-
-    def _ahead(self, periods: int) -> Array:
-        """The distance after some periods by the linear map."""
-        return np.linalg.matrix_power(self.jacobian, periods) @ self.distance
 
     def _advance(self, x: Array, periods: int, *, coarse: bool = True) -> Orbit:
         """The motion from a point of the section over some periods of the cycle."""
@@ -238,14 +219,6 @@ class NearCycle:
             expected = np.linalg.matrix_power(self.jacobian, count) @ expected
             yield x - self.x, expected, count * self.cycle.period
             done += count
-
-    @np.errstate(over="ignore", invalid="ignore")  # powers of a strongly unstable cycle's Jacobian
-    def _is_linear(self, distance: Array, times: tuple[float, float]) -> bool:
-        """Whether the motion at that distance departs from the cycle, or approaches it, as its
-        multipliers predict."""
-        least = ARRIVED * self.map.deflection if self.cycle.stable else 0.0
-        motion = self._motion(distance, times)
-        return _is_as_expected(motion, self.leading, self.cycle.growth_rate, least)
 
     def _excess_rate(self, distance: Array) -> float:
         """Relative excess of the growth rate over the leading multiplier's; infinite unless the
@@ -347,11 +320,13 @@ def _relate(
     x = map_.point(cycle.state)
     orbit = map_.evaluate(x, releases=cycle.releases, may_separate=cycle.separations > 0)
     near = NearCycle(cycle, False, map_, x, release.x - x, orbit.jacobian, release.time)
-    moving: NearCycle | None = near if release.reached else None
-    for wait in waits:
-        if moving is not None:
-            moving = moving.after(max(0.0, wait - (moving.time - release.time)))
-        if moving is not None and near.follows_multipliers(x + moving.distance):
+    moving = near
+    for wait in waits if release.reached else ():
+        later = moving.after(max(0.0, wait - (moving.time - release.time)))
+        if later is None:
+            break
+        moving = later
+        if near.follows_multipliers(x + moving.distance):
             return replace(moving, follows_cycle=True)
     return near
 
@@ -364,7 +339,9 @@ def find_equilibrium(p: Parameters, leg: Result) -> Outcome | None:
     approaches it; None if neither is shown."""
     if stick_share(leg) == 1 and never_pulls(p):
         return Outcome.AT_REST
-    return Outcome.STEADY_SLIDING if approaches_sliding(p, leg.final_state) else None
+    if approaches_sliding(p, leg.final_state):
+        return Outcome.STEADY_SLIDING
+    return None
 
 
 def approaches_sliding(p: Parameters, state: State) -> bool:
@@ -434,7 +411,8 @@ def _follows_eigenvalues(
 @dataclass(frozen=True, eq=False)
 class Attractor:
     """Outcome of motions on an attractor, and a segment of one; of a periodic one also period (s),
-    releases in it, growth rate (1/s) and points on the section, shape (releases, n)."""
+    releases in it, growth rate (1/s) and points on the section over the static deflection, shape
+    (releases, n)."""
 
     kind: Outcome
     segment: Segment
@@ -485,17 +463,23 @@ class OutcomeResult:
     @property
     def timed_separation(self) -> float:
         """Time of the first separation (s) where the whole motion was simulated; nan elsewhere."""
-        return np.nan if self.extrapolated else self.first_separation
+        if self.extrapolated:
+            return np.nan
+        return self.first_separation
 
     @property
     def status(self) -> Status:
         """How the last simulation ended."""
-        return Status.OK if self.failed is None else self.failed.status
+        if self.failed is None:
+            return Status.OK
+        return self.failed.status
 
     @property
     def message(self) -> str:
         """Why the simulation failed; empty if it did not."""
-        return "" if self.failed is None else self.failed.message
+        if self.failed is None:
+            return ""
+        return self.failed.message
 
     def note_change(self, change: float) -> None:
         """Note how nearly the motion repeats."""
@@ -535,22 +519,22 @@ def find_outcome(
     that settles, is simulated from its start all the same: a small error decides to which attractor
     an irregular motion comes.
     """
-    # a return map takes as long as a return to the section ten times over
-    map_ = near.map if isinstance(near, NearCycle) else None
-    if map_ is None and may_stick_and_slip(p):
-        map_ = ReturnMap(p)
-    if near is None and early and start is None and map_ is not None:
+    if near is None and early and start is None:
         near = cycle_of_static_start(p)
-    cycle: NearCycle | None = None
-    if isinstance(near, NearCycle) and near.follows_cycle and early and start is None:
-        cycle = near
+    followed = None
+    map_ = None  # which takes as long as a return to the section ten times over
+    if isinstance(near, NearCycle):
+        map_ = near.map
+        followed = near if near.follows_cycle else None
+    elif may_stick_and_slip(p):
+        map_ = ReturnMap(p)
     search = _Search(p, horizon, tol, early, late, map_)
-    rough = search.run(start, cycle, extrapolate=bool(compared_with))
+    rough = search.run(start, followed, extrapolate=bool(compared_with))
     separation = rough.first_separation
     is_near = any(abs(separation - other) <= BORDER * other for other in compared_with)
     if not rough.extrapolated or (rough.outcome in OPEN and not is_near):
         return rough
-    result = search.run(start, cycle, extrapolate=False)
+    result = search.run(start, followed, extrapolate=False)
     result.simulated += rough.simulated
     return result
 
@@ -577,59 +561,65 @@ class _Search:
         leg = FIRST_LEG
         end = self.horizon
         while True:
-            if cycle is not None and cycle.cycle.stable:  # it is on it for good
-                result.near = cycle
-                result.outcome = cycle.kind
-                result.time = cycle.time
-                result.distance = float(np.linalg.norm(cycle.distance)) / cycle.map.deflection
-                return result
+            if cycle is not None and cycle.cycle.stable:
+                return _on_cycle(result, cycle)
             if cycle is not None:
                 result.near = result.near or cycle
                 departs = True
-                if extrapolate and self._extrapolate(result, cycle):
-                    # nothing is to be seen before the departure has grown by a factor of e
-                    leg = min(max(leg, 1 / cycle.cycle.growth_rate), LONGEST_LEG)
-                    end = (1 + BORDER) * self.horizon
+                if extrapolate:
+                    leg, end = self._extrapolate(result, cycle, leg, end)
             if result.time >= end:
                 grows = departs or growing(result.changes)
                 result.outcome = Outcome.GROWING if grows else Outcome.UNDECIDED
                 return result
 
             run = self._simulate(result, leg, end)
-            leg = min(2 * leg, LONGEST_LEG)
-            if run.status is Status.STOPPED:
-                result.outcome = Outcome.SEPARATION
-                result.first_separation = run.first_separation
-                return result
-            if not run.status.complete:
-                result.failed = run
-                return result
-
-            # rest, steady sliding, or a cycle that the motion follows from here on
             examined = self.early or result.time >= end
-            if examined and (equilibrium := find_equilibrium(self.p, run)) is not None:
-                result.outcome = equilibrium
-                result.near = None
+            if self._ends_with(result, run, examined):
                 return result
             if examined and not departs and slips_on(run):
                 departs = departs_from_sliding(self.p, run.final_state)
+            # a cycle that it follows from here on
             cycle = self._cycle_at(result, run.final_state, examined)
+            leg = min(2 * leg, LONGEST_LEG)
 
-    def _extrapolate(self, result: OutcomeResult, near: NearCycle) -> bool:
-        """Go on from where a slow departure ceases to be linear, if that is later."""
+    def _ends_with(self, result: OutcomeResult, run: Result, examined: bool) -> bool:
+        """Whether the search ends with a leg: by separation, failure, rest or steady sliding."""
+        if run.status is Status.STOPPED:
+            result.outcome = Outcome.SEPARATION
+            result.first_separation = run.first_separation
+            return True
+        if not run.status.complete:
+            result.failed = run
+            return True
+        if examined:
+            result.outcome = find_equilibrium(self.p, run)
+        if result.outcome is not None:
+            result.near = None
+        return result.outcome is not None
+
+    def _extrapolate(
+        self, result: OutcomeResult, near: NearCycle, leg: float, end: float
+    ) -> tuple[float, float]:
+        """Go on from where a slow departure ceases to be linear, if that is later; lengths of the next
+        leg and of the search (s)."""
         departure = near.extrapolate(self.horizon)
         if departure is None or departure[1] <= result.time:
-            return False
+            return leg, end
         x, result.time = departure
         result.state = near.map.state(x).replace(time=result.time)
         result.extrapolated = True
         result.note_change(close_return(near.map, x)[0])
-        return True
+        # nothing is to be seen before the departure has grown by a factor of e
+        leg = min(max(leg, 1 / near.cycle.growth_rate), LONGEST_LEG)
+        return leg, (1 + BORDER) * self.horizon
 
     def _simulate(self, result: OutcomeResult, leg: float, end: float) -> Result:
         """Simulate a leg to its end or the first separation; the segment to be described is a leg
         of its own."""
-        mark = end - self.late if result.time < end - self.late else end
+        mark = end
+        if result.time < end - self.late:
+            mark = end - self.late
         stop = min(result.time + leg, mark)
         described = bool(self.late) and stop == end
         run = simulate(
@@ -665,7 +655,18 @@ class _Search:
             return None
         waits = WAITS if result.near is None else WAITS[:1]
         near = find_cycle_near(self.map, release, change, releases, unstable=waits)
-        return near if near is not None and near.follows_cycle else None
+        if near is not None and near.follows_cycle:
+            return near
+        return None
+
+
+def _on_cycle(result: OutcomeResult, cycle: NearCycle) -> OutcomeResult:
+    """The outcome of a motion that is on a stable cycle for good."""
+    result.near = cycle
+    result.outcome = cycle.kind
+    result.time = cycle.time
+    result.distance = float(np.linalg.norm(cycle.distance)) / cycle.map.deflection
+    return result
 
 
 def slips_on(leg: Result) -> bool:

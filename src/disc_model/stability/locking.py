@@ -158,7 +158,9 @@ def phase_map(p: Parameters, run: Result, count: int, tol: float) -> PhaseMap:
         after = simulate(p, end, tol=tol, initial_state=held.replace(psi=stretch))
         is_release = after.events["kind"] == "stick_to_slip"
         is_forward = (after.events["psi"][is_release].iloc[:1] > 0).all()
-        return releases_of(after, since=(lost, vibration)) if is_forward else None
+        if is_forward:
+            return releases_of(after, since=(lost, vibration))
+        return None
 
     rows = []
     for stretch in (largest * np.linspace(-1, 1, count + 2)[1:-1]).tolist():

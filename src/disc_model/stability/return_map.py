@@ -85,7 +85,9 @@ def longest_step(model: Model, order: int, tolerance: float) -> float:
     fastest = damping / 2 + math.sqrt(damping**2 / 4 + stiffness) + turning
     rate = fastest * model.unit
     longest = tangent.longest_step(order, tolerance)
-    return longest / rate if rate > FAST else longest
+    if rate > FAST:
+        return longest / rate
+    return longest
 
 
 def parameter_change(p: Parameters, model: Model, name: str) -> Array:
@@ -239,7 +241,9 @@ class ReturnMap:
         p = self.parameters
         stuck = 2 * (p.mu_s - p.mu_k) * p.N / (p.r_0 * p.k_p * p.Omega)
         longest = 4 * (stuck + 2 * math.pi * math.sqrt(p.m / p.k_p)) + 0.01
-        return 60.0 * longest if self.patient else longest
+        if self.patient:
+            return 60.0 * longest
+        return longest
 
     def evaluate(
         self,
@@ -414,7 +418,9 @@ def newton(
     solution = follow(orbit.start)
     largest = rounding(map_.tol, 1e4) * map_.deflection
     close = solution.returned and solution.residual <= largest
-    return solution if close and bool(np.all(np.isfinite(solution.jacobian))) else None
+    if close and bool(np.all(np.isfinite(solution.jacobian))):
+        return solution
+    return None
 
 
 def _search_along_step(

@@ -1,7 +1,7 @@
 """Segments of motions: stretches that are simulated, and described by ranges and shares of time."""
 
+import math
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 
@@ -50,7 +50,9 @@ def final_segment(
 ) -> tuple[Result, Segment | None]:
     """Simulate from a state (None: the static start) for a duration (s); its last segment, if it is
     complete."""
-    begin = 0.0 if state is None else state.time
+    begin = 0.0
+    if state is not None:
+        begin = state.time
     stop = begin + duration
     if stop - late > begin:
         result = simulate(p, stop - late, tol=tol, initial_state=state, events=False)
@@ -101,27 +103,15 @@ def event_times(leg: Result, kind: int) -> Array:
     return rows[rows[:, KIND] == kind, TIME]
 
 
-class Extremes(NamedTuple):
-    """Least and greatest height of the slider over static equilibrium, m."""
-
-    u_min: float
-    u_max: float
-
-    @property
-    def range(self) -> float:
-        """Range of the height, m."""
-        return self.u_max - self.u_min
-
-
-def extremes_of_cycle(p: Parameters, state: State, period: float) -> Extremes:
-    """Extremes of the slider's height over a period (s) from a state of a cycle; nan if it cannot be
-    simulated."""
+def extremes_of_cycle(p: Parameters, state: State, period: float) -> tuple[float, float]:
+    """Least and greatest height of the slider over static equilibrium (m) in a period (s) from a state
+    of a cycle; nan if it cannot be simulated."""
     window = Window(start=state.time, rate=SAMPLES_OF_CYCLE / period)
     result = simulate(p, state.time + period, {"cycle": window}, initial_state=state)
     if not result.status.complete:
-        return Extremes(float("nan"), float("nan"))
+        return math.nan, math.nan
     height = result.samples["cycle"]["u"] - result.u_0
-    return Extremes(-_peak(-height), _peak(height))
+    return -_peak(-height), _peak(height)
 
 
 def _peak(samples: Array) -> float:

@@ -17,9 +17,8 @@ membrane; its equilibrium is followed from that of no load.
 """
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
-from itertools import pairwise
 from types import FunctionType, ModuleType, SimpleNamespace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -140,7 +139,9 @@ class SteadySliding(Summarised, EqualByValue):
 
     def __str__(self) -> str:
         table = self.modes
-        return f"{self!r}\n{table.to_string()}" if len(table) else repr(self)
+        if len(table):
+            return f"{self!r}\n{table.to_string()}"
+        return repr(self)
 
     def _summary(self) -> Iterator[tuple[str, object]]:
         if self.parameters is not None:
@@ -166,9 +167,9 @@ class SteadySliding(Summarised, EqualByValue):
     @property
     def frequency(self) -> float:
         """That of the mode with the growth rate, Hz; 0 if it does not oscillate, nan without modes."""
-        return (
-            float(abs(self.eigenvalues[0].imag)) / math.tau if self.eigenvalues.size else math.nan
-        )
+        if self.eigenvalues.size:
+            return float(abs(self.eigenvalues[0].imag)) / math.tau
+        return math.nan
 
     @property
     def modes(self) -> "DataFrame":
@@ -229,17 +230,13 @@ class SteadySliding(Summarised, EqualByValue):
         return drawings().eigenvalues(ax, self, **look)
 
 
-def _rounding(eigenvalues: ComplexArray) -> float:
-    """Error of eigenvalues, 1/s: a solver rounds relative to the largest, once for each of n
-    rows."""
-    return float(np.finfo(float).eps * np.abs(eigenvalues).max(initial=0) * eigenvalues.size)
-
-
 def growth_rates(eigenvalues: ComplexArray) -> Array:
     """The real parts of all eigenvalues of a matrix, 1/s, and exactly 0 where they are nothing but
     rounding, so that their signs tell growth from decay."""
     rates = np.asarray(eigenvalues.real, dtype=float)
-    return np.where(np.abs(rates) <= _rounding(eigenvalues), 0.0, rates)
+    # a solver rounds relative to the largest, once for each of n rows
+    rounding = np.finfo(float).eps * np.abs(eigenvalues).max(initial=0) * eigenvalues.size
+    return np.where(np.abs(rates) <= rounding, 0.0, rates)
 
 
 def steady_sliding(case: Parameters) -> SteadySliding:
@@ -277,30 +274,46 @@ def _equilibrium(case: Parameters) -> SteadySliding:
         return _absent(case, SlidingStatus.AT_REST)
     disc = _Response(case)
     linear = disc.equilibria()
-    every = [_slip(case, disc.rows_of(each)) for each in linear]
-    if disc.model.has_stretching:
-        every = [slip for each in every if (slip := _stretched(case, each)) is not None]
+    every = [slip for slip in map(disc.slip_at, linear) if slip is not None]
     carried = [each for each in every if each.force > 0 or case.contact == "bilateral"]
+    carried.sort(key=lambda each: abs(each.rate - case.Omega))
     if not carried:
         if not case.N > 0:
             return _absent(case, SlidingStatus.NO_LOAD)
         return _absent(case, SlidingStatus.NO_CONTACT if every else SlidingStatus.NOT_FOUND)
-    found = min(carried, key=lambda each: abs(each.rate - case.Omega))
+    found = carried[0]
     if found.denominator <= 1e-6:
         return _absent(case, SlidingStatus.PARADOX)
-    (a, alpha, b, beta), (psi, _), _ = split_rows(mode_arrays(case), found.rows)
-    if case.k_p == 0:  # no friction at this speed, and no slope: both are exactly zero then
-        if any(each.H != 0 for each in linear):
-            return _absent(case, SlidingStatus.NO_SPRING)
+    # without a spring, friction at this speed and the slope must both be zero, which is exact then
+    if case.k_p == 0 and any(each.H != 0 for each in linear):
+        return _absent(case, SlidingStatus.NO_SPRING)
+    return _described(case, carried, stretches=bool(disc.model.has_stretching))
+
+
+def _described(case: Parameters, carried: Sequence["_Slip"], *, stretches: bool) -> SteadySliding:
+    """Steady sliding, without its eigenvalues, at the first of some equilibria."""
+    (a, alpha, b, beta), (psi, _), _ = split_rows(mode_arrays(case), carried[0].rows)
+    if case.k_p == 0:
         psi = math.nan
-    status = SlidingStatus.FURTHER if disc.model.has_stretching else SlidingStatus.OK
+    status = SlidingStatus.OK
+    if stretches:
+        status = SlidingStatus.FURTHER
     if len(carried) > 1:
         status = SlidingStatus.SEVERAL
-    rates = np.sort([each.rate for each in carried])
     return SteadySliding(
-        status, "", found.force, float(psi), a, b, alpha, beta, jacobian=found.jacobian,
-        parameters=case, rates=rates, rate=found.rate,
-    )  # fmt: skip
+        status,
+        "",
+        carried[0].force,
+        float(psi),
+        a,
+        b,
+        alpha,
+        beta,
+        jacobian=carried[0].jacobian,
+        parameters=case,
+        rates=np.sort([each.rate for each in carried]),
+        rate=carried[0].rate,
+    )
 
 
 def _with_eigenvalues(sliding: SteadySliding, values: np.ndarray) -> SteadySliding:
@@ -312,8 +325,12 @@ def _with_eigenvalues(sliding: SteadySliding, values: np.ndarray) -> SteadySlidi
     growth_rate = float(growth_rates(eigenvalues)[0])
     verdict = "neutral"
     if growth_rate != 0:
-        verdict = "stable" if growth_rate < 0 else "not stable"
-    symbol = "R" if sliding.parameters.contact_force == "normal" else "P"
+        verdict = "not stable"
+        if growth_rate < 0:
+            verdict = "stable"
+    symbol = "P"
+    if sliding.parameters.contact_force == "normal":
+        symbol = "R"
     message = f"steady sliding with {symbol} = {sliding.contact_force:.6g} N, {verdict}"
     if sliding.status is SlidingStatus.SEVERAL:
         message += f"; the nearest to the drive's rate of {len(sliding.rates)} equilibria"
@@ -360,19 +377,10 @@ class _Response:
         """All equilibria that are found, up to twice the drive's rate."""
         if not (self.load and self.t.any()):
             start = self.solve(self.p.Omega)
-            return [start] if math.isfinite(start.V) else []
-        found = list[Balanced]()
-        for low, high in pairwise(self._grid()):
-            before = self.excess(low)
-            after = self.excess(high)
-            if before == 0:
-                found.append(self.solve(low))
-            if before * after < 0:
-                rate = float(brentq(self.excess, low, high, xtol=1e-300, rtol=1e-15))
-                # at a pole it jumps from one sign to the other
-                if abs(self.excess(rate)) < min(abs(before), abs(after)):
-                    found.append(self.solve(rate))
-        return found
+            if math.isfinite(start.V):
+                return [start]
+            return []
+        return [self.solve(rate) for rate in _zeros(self.excess, self._grid())]
 
     def excess(self, rate: float) -> float:
         """The slider's rate over that of the drive at a rate g, rad/s."""
@@ -380,7 +388,7 @@ class _Response:
         surface = rate * float((self.modes.diameters * self.t) @ state.a)
         return rate + surface / self.p.r_0 - self.p.Omega
 
-    def _grid(self) -> list[float]:
+    def _grid(self) -> Array:
         """Rates at which equilibria are sought, closer beside resonances of the disc and where the
         contact force has a pole."""
         pairs = self.modes.diameters > 0
@@ -390,10 +398,7 @@ class _Response:
         def softness(rate: float) -> float:
             return 1 / self.solve(rate).V
 
-        signs = np.sign([softness(rate) for rate in grid])
-        jumps = np.flatnonzero(signs[1:] * signs[:-1] < 0)
-        poles = [brentq(softness, grid[i], grid[i + 1], rtol=1e-15) for i in jumps]
-        return [*_with_beside(grid, np.array(poles)).tolist()]
+        return _with_beside(grid, np.array(_zeros(softness, grid)))
 
     @np.errstate(divide="ignore", invalid="ignore")
     def solve(self, rate: float) -> Balanced:
@@ -422,16 +427,35 @@ class _Response:
         motion = (by_V + share * by_H) * V
         return Balanced(rate, motion.real, motion.imag, V, share * V)
 
-    def rows_of(self, state: Balanced) -> Array:
-        """An equilibrium in the rows of `SteadySliding.jacobian`."""
+    def slip_at(self, state: Balanced) -> "_Slip | None":
+        """Slip at an equilibrium, or at that to which stretching of the plate leads from there."""
         p = self.p
         turned = self.modes.diameters * state.rate
-        psi = state.H / (p.r_0 * p.k_p) if p.k_p else 0.0
+        psi = 0.0
+        if p.k_p:
+            psi = state.H / (p.r_0 * p.k_p)
         height: tuple[float, ...] = ()
         if self.compliance:
             height = (float(self.modes.psi @ state.a) - self.compliance * state.V, 0.0)
         disc = (state.a, -turned * state.b, state.b, turned * state.a)
-        return np.asarray(join_rows(self.modes, disc, (psi, p.Omega), height), dtype=float)
+        slip = _slip(
+            p, np.asarray(join_rows(self.modes, disc, (psi, p.Omega), height), dtype=float)
+        )
+        if self.model.has_stretching:
+            return _stretched(p, slip)
+        return slip
+
+
+def _zeros(function: Callable[[float], float], grid: Array) -> list[float]:
+    """Zeros of a function that changes its sign there between two numbers of a grid. At a pole it jumps
+    from one sign to the other."""
+    values = np.array([function(x) for x in grid])
+    found: list[float] = grid[:-1][values[:-1] == 0].tolist()
+    for i in np.flatnonzero(values[:-1] * values[1:] < 0):
+        zero = float(brentq(function, grid[i], grid[i + 1], xtol=1e-300, rtol=1e-15))
+        if abs(function(zero)) < np.abs(values[i : i + 2]).min():
+            found.append(zero)
+    return found
 
 
 def _with_beside(grid: Array, places: Array) -> Array:
@@ -626,28 +650,27 @@ def _modes_of(p: Parameters, values: ComplexArray, vectors: ComplexArray) -> Sli
     order = [i for i in np.argsort(values.imag, kind="stable") if values[i].imag > 0]
     growth_rate = growth_rates(values)[order]
     values = values[order]
-    every = vectors if order else np.zeros((len(energy_weights(p)), 0))
+    weights = energy_weights(p)[:, None]
+    every = vectors if order else np.zeros((len(weights), 0))
     vectors = np.asarray(every[:, order], dtype=complex)
     modes = mode_arrays(p)
-    omega = modes.omega[:, None]
-    (a, alpha, b, beta), (psi, f), height = split_rows(modes, vectors)
-    energy = np.abs(omega * a) ** 2 + np.abs(alpha) ** 2
-    energy = energy + np.abs(omega * b) ** 2
-    energy = energy + np.abs(beta) ** 2
+    (a, alpha, b, beta), slider, _ = split_rows(modes, np.sqrt(weights) * vectors)
+    energy = np.sum(np.abs([a, alpha, b, beta]) ** 2, axis=0)
     diameters = _of_most(modes.diameters, energy)
     most = modes.diameters[:, None] == diameters
     circles = _of_most(modes.circles, np.where(most, energy, 0))
 
     # a + i b and a - i b are the waves that travel in opposite directions
-    with_slider = np.sum(np.abs(omega * (a + 1j * b)) ** 2, axis=0, where=most)
-    against = np.sum(np.abs(omega * (a - 1j * b)) ** 2, axis=0, where=most)
+    with_slider = np.sum(np.abs(a + 1j * b) ** 2, axis=0, where=most)
+    against = np.sum(np.abs(a - 1j * b) ** 2, axis=0, where=most)
     with np.errstate(invalid="ignore"):  # a mode without the disc has no waves
         forward = np.asarray(with_slider / (with_slider + against), dtype=float)
 
     disc = energy.sum(axis=0)
-    u = height[0] if len(height) else modes.psi @ a
+    (shape, *_), _, height = split_rows(modes, vectors)
+    u = height[0] if len(height) else modes.psi @ shape
     across = np.abs(u) ** 2 * (p.k + p.m * np.abs(values) ** 2)
-    in_plane = p.r_0**2 * (p.k_p * np.abs(psi) ** 2 + p.m * np.abs(f) ** 2)
+    in_plane = np.sum(np.abs(slider) ** 2, axis=0)
     whole = disc + across + in_plane
     slides = in_plane > disc
     return SlidingModes(
@@ -750,7 +773,9 @@ def _case_between(before: Parameters, after: Parameters) -> Parameters | None:
     for name, value in before:
         if isinstance(value, float) and value != ends[name]:
             middles[name] = (value + ends[name]) / 2
-    return after.replace(**middles) if middles else None
+    if middles:
+        return after.replace(**middles)
+    return None
 
 
 def energy_weights(p: Parameters) -> Array:

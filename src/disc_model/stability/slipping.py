@@ -190,7 +190,9 @@ class SlippingMap(ReturnMap):
         code = section.integrate(self.model, self._series, self._state, self._tangent, limits)
         if code != transitions.TIME_OVER:
             return code
-        return STOPS if log[columns.STICKS] + log[columns.REVERSALS] > 0 else RETURNED
+        if log[columns.STICKS] + log[columns.REVERSALS] > 0:
+            return STOPS
+        return RETURNED
 
     def _follow_to_passage(self) -> Passage:
         """Follow the motion from the present state to the next passage through the section."""
@@ -222,19 +224,19 @@ def find_slipping_cycle(p: Parameters, tol: float, guess: State | None) -> Floqu
     """The cycle that slips all the time which Newton's method finds near a state in slip, or the
     smallest one round steady sliding."""
     sliding = steady_sliding(p)
-    where = "near the given state" if guess else "round steady sliding"
-    reason = f"no cycle {where} slips all the time"
-    orbit = None
-    map_ = None
     if not sliding.status.exists or min(p.N, p.k_p) <= 0:
         reason = "there is no steady sliding on a spring"
-    else:
-        map_ = SlippingMap(p, tol)
-        if guess is None:
-            orbit = find_slipping_orbit(map_, sliding)
-        elif (passage := map_.next_release(guess)).reached:
-            orbit = newton(map_, passage.x)
-    if map_ is None or orbit is None:
+        return no_cycle(p, tol, CycleStatus.NO_CYCLE, reason, SLIPPING)
+    map_ = SlippingMap(p, tol)
+    orbit = None
+    where = "near the given state"
+    if guess is None:
+        where = "round steady sliding"
+        orbit = find_slipping_orbit(map_, sliding)
+    elif (passage := map_.next_release(guess)).reached:
+        orbit = newton(map_, passage.x)
+    if orbit is None:
+        reason = f"no cycle {where} slips all the time"
         return no_cycle(p, tol, CycleStatus.NO_CYCLE, reason, SLIPPING)
     return cycle_of(map_, orbit, SLIPPING)
 
@@ -263,8 +265,12 @@ def find_slipping_orbit(map_: SlippingMap, sliding: SteadySliding) -> Orbit | No
             before = distance * away
             orbit = map_.evaluate(equilibrium + before, tangent=False)
             share = float((orbit.end - equilibrium) @ before) / distance**2
-            grown = min(share - 1, 1.0) if orbit.returned else 1.0
-            return grown if abs(grown) > NEUTRAL else 0.0
+            grown = 1.0
+            if orbit.returned:
+                grown = min(share - 1, 1.0)
+            if abs(grown) > NEUTRAL:
+                return grown
+            return 0.0
 
         low = SMALLEST * map_.deflection
         before = growth(low)

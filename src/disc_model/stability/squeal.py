@@ -143,7 +143,9 @@ def _change(scan: _Scan, number: int, inside: int, outside: int) -> float:
 
     def growth(value: float) -> float:
         rate = _growth_of(place, [scan.at(start), scan.at(value)])
-        return rate if rate > 0 else min(rate, -ROUNDING)
+        if rate > 0:
+            return rate
+        return min(rate, -ROUNDING)
 
     end = scan.values[outside]
     return float(brentq(growth, start, end, xtol=ROUNDING * abs(start), rtol=ROUNDING))
@@ -164,14 +166,18 @@ def _cause(case: Parameters, one: FollowedModes, place: int) -> str:
         return _growth_of(place, [_without(case, one.sliding.rate, *shares) for shares in way])
 
     loaded = growth(0, 0)
-    enough = one.modes.growth_rate[place] / 2 if loaded > 0 else 0.0
+    enough = 0.0
+    if loaded > 0:
+        enough = one.modes.growth_rate[place] / 2
     if loaded > enough:
         return "moving load"
     falling = growth(1, 0) > enough
     tangential = growth(0, 1) > enough
     if falling == tangential:
         return "more than one"
-    return "falling friction" if falling else "tangential work"
+    if falling:
+        return "falling friction"
+    return "tangential work"
 
 
 def _without(case: Parameters, rate: float, slope: float, tangential: float) -> Parameters:

@@ -11,21 +11,22 @@ multipliers; `cycles` is F, a branch in one parameter and its special points, `b
 stability in two; `branch` is the result, and `arguments` reads what is asked.
 """
 
-from disc_model.stability.continuation.arguments import Bounds, require_interval
+from disc_model.stability.continuation.arguments import CHANGES, Bounds, require_interval
 from disc_model.stability.continuation.borders import NeutralCurves, StabilityCurve, neutral_curves
 from disc_model.stability.continuation.branch import Branch, continue_cycle
-from disc_model.stability.continuation.curve import StepControl, are_slow, passings, turns_of
+from disc_model.stability.continuation.curve import Rejected, StepControl
+from disc_model.stability.continuation.cycles import follow_between
 
 __all__ = [
+    "CHANGES",
     "Bounds",
     "Branch",
     "NeutralCurves",
+    "Rejected",
     "StabilityCurve",
     "StepControl",
-    "are_slow",
     "continue_cycle",
+    "follow_between",
     "neutral_curves",
-    "passings",
     "require_interval",
-    "turns_of",
 ]

@@ -25,6 +25,7 @@ from disc_model.stability.continuation.curve import (
     Rejected,
     StepControl,
     check_step,
+    curve_point,
     follow_curve,
     passes,
     spectrum_of,
@@ -37,8 +38,7 @@ from disc_model.stability.continuation.cycles import (
     PERIOD_DOUBLING,
     CycleProblem,
     Entry,
-    Tracer,
-    first_cycle,
+    follow_between,
     leading,
     parameter_scale,
 )
@@ -59,10 +59,9 @@ LEAST_RESEMBLANCE = 0.6  # of a multiplier's eigenvectors at two neighbouring po
 DIFFERENCE = 1e-4  # arclength of the difference that gives a multiplier's gradient
 DEFECT = 0.1  # of a step along a border, which turns by up to 37 degrees; see `check_step`
 ON_BORDER = 1e-10  # value of the test function that counts as zero
-LARGEST_TURN = 0.2  # largest change of the multiplier in a step along a border
 MOST_CORRECTIONS = 12  # of Newton's method at a point of a border
+LARGEST_TURN = 0.2  # largest change of the multiplier in a step along a border
 CLOSES = 0.01  # distance from the first point of a border at which it has closed, over the step
-MOST_ON_LINE = StepControl(max_points=500)  # of a branch between two points of a line
 BORDER_KINDS: Mapping[str, Kind] = {
     FOLD: "fold",
     NEIMARK_SACKER: "neutral",
@@ -101,18 +100,55 @@ class BorderProblem:
         z = self.cycles.place(x)
         found = self.cycles.evaluate(z)
         self._keep_vectors(found.jacobian, mu)
-        _, mu = self._test(found.jacobian)
-        return self._correct(self._point(z, found, mu), 0.0)
+        extended = self._extended(z, found, self._test(found.jacobian)[1])
+        along = np.linalg.svd(extended.by)[2][-1]
+        return self._corrected(curve_point(z, extended, along), 0.0)
 
     def next_point(self, points: Sequence[CurvePoint], ds: float) -> list[CurvePoint]:
         """The border's point at arclength ds beyond the last of some; raises `Rejected` if a
         shorter step is needed."""
         current = points[-1]
-        ahead = self._correct(current, ds)
-        if float(ahead.tangent @ current.tangent) < 0:
-            ahead = ahead.reversed()
+        if abs(ds * (current.found.turning @ current.tangent)) > LARGEST_TURN:
+            raise Rejected("the multiplier turns too fast")
+        ahead = self._corrected(current, ds)
         check_step(current, ahead, DEFECT, SHARPEST)
         return [ahead]
+
+    def _corrected(self, start: CurvePoint, ds: float) -> CurvePoint:
+        """The border's point in the plane normal to the tangent at arclength ds, where F and the test
+        function vanish."""
+        along = start.tangent
+        guess = start.z + ds * along
+        gradient = start.found.by[-1]
+        z = guess
+        found = self.cycles.evaluate(z)
+        value, mu = self._test(found.jacobian)
+        for _ in range(MOST_CORRECTIONS):
+            right = np.concatenate([found.residual, [value, along @ (z - guess)]])
+            if float(np.linalg.norm(right)) < ON_BORDER:
+                return curve_point(z, self._extended(z, found, mu), along)
+            move = -newton_step(np.vstack([found.by, gradient, along]), right)
+            z = z + move
+            found = self.cycles.evaluate(z)
+            former = value
+            value, mu = self._test(found.jacobian)
+            # Broyden's update: a gradient by differences would take four orbits at each correction
+            gradient = gradient + (value - former - gradient @ move) / (move @ move) * move
+        raise Rejected(DIVERGES)
+
+    def _extended(self, z: Array, found: Evaluation, mu: complex) -> Evaluation:
+        """F of a cycle with the derivative of the test function by differences within the surface of
+        cycles, and with the multiplier and its derivative."""
+        self._keep_vectors(found.jacobian, mu)
+        basis = np.linalg.svd(found.by)[2][self.cycles.n :]
+        changes = np.zeros((2, 2), complex)
+        for i, unit in enumerate(basis):
+            for side in (1, -1):
+                beside = self.cycles.evaluate(z + side * DIFFERENCE * unit)
+                changes[i] += side * np.array(self._test(beside.jacobian)) / (2 * DIFFERENCE)
+        gradient, turning = changes.T @ basis
+        by = np.vstack([found.by, gradient.real])
+        return found._replace(by=by, mu=mu, turning=turning)
 
     def _keep_vectors(self, jacobian: Array, mu: complex) -> None:
         """Keep, of a point of the border, the singular vectors that border J - I on a fold, or the
@@ -140,65 +176,6 @@ class BorderProblem:
             raise Rejected("the multiplier changes its shape too fast")
         return math.log(abs(values[best])), complex(values[best])
 
-    def _point(self, z: Array, found: Evaluation, mu: complex) -> CurvePoint:
-        """A cycle on the surface, with the tangent of the curve on which the test function keeps
-        its value."""
-        self._keep_vectors(found.jacobian, mu)
-        basis = np.linalg.svd(found.by)[2][self.cycles.n :]
-        slopes = np.zeros(2)
-        turns = np.zeros(2, complex)
-        for i, unit in enumerate(basis):
-            ends_of_difference = []
-            for side in (1, -1):
-                beside = self.cycles.evaluate(z + side * DIFFERENCE * unit)
-                ends_of_difference.append(self._test(beside.jacobian))
-            (value, multiplier), (former_value, former_multiplier) = ends_of_difference
-            slopes[i] = (value - former_value) / (2 * DIFFERENCE)
-            turns[i] = (multiplier - former_multiplier) / (2 * DIFFERENCE)
-        steepness = float(np.linalg.norm(slopes))
-        if not steepness > 0:
-            raise Rejected("the multiplier does not depend on the parameters")
-        along = np.array([-slopes[1], slopes[0]]) / steepness
-        tangent = along @ basis
-        gradient = slopes @ basis
-        sign, _ = np.linalg.slogdet(np.vstack([found.by, gradient, tangent]))
-        return CurvePoint(
-            z,
-            found.by,
-            tangent,
-            float(sign),
-            found.orbit,
-            found.jacobian,
-            mu=mu,
-            gradient=gradient,
-            turning=turns @ basis,
-        )
-
-    def _correct(self, start: CurvePoint, ds: float) -> CurvePoint:
-        """The border's point at arclength ds: F = 0, test = 0, and the plane normal to the
-        tangent."""
-        expected = start.mu + complex(start.turning @ (ds * start.tangent))
-        if abs(expected - start.mu) > LARGEST_TURN:
-            raise Rejected("the multiplier turns too fast")
-        guess = start.z + ds * start.tangent
-        rows = start.tangent[None, :]
-        gradient = start.gradient
-        z = guess
-        found = self.cycles.evaluate(z)
-        value, mu = self._test(found.jacobian)
-        for _ in range(MOST_CORRECTIONS):
-            right = np.concatenate([found.residual, [value], rows @ (z - guess)])
-            if float(np.linalg.norm(right)) < ON_BORDER:
-                return self._point(z, found, mu)
-            move = -newton_step(np.vstack([found.by, gradient, rows]), right)
-            z = z + move
-            found = self.cycles.evaluate(z)
-            former = value
-            value, mu = self._test(found.jacobian)
-            # Broyden's update: a gradient by differences would take four orbits at each correction
-            gradient = gradient + (value - former - gradient @ move) / (move @ move) * move
-        raise Rejected(DIVERGES)
-
 
 def follow_border(
     problem: BorderProblem,
@@ -216,7 +193,7 @@ def follow_border(
         start, new = points[0], points[-1]
         if np.any((new.z[n:] < low) | (new.z[n:] > high)):
             return BOUND
-        alike = len(points) > 3 and abs(start.mu - new.mu) <= LARGEST_TURN
+        alike = len(points) > 3 and abs(start.found.mu - new.found.mu) <= LARGEST_TURN
         if alike and passes(points[-2], new, start, CLOSES) is not None:
             points[-1] = start
             return CLOSED
@@ -224,7 +201,9 @@ def follow_border(
 
     slopes = first.tangent[n:]
     slope = slopes[0] if abs(slopes[0]) > 1e-12 else slopes[1]
-    onward = first.reversed() if slope < 0 else first
+    onward = first
+    if slope < 0:
+        onward = first.reversed()
     follow = partial(follow_curve, advance=problem.next_point, steps=steps, watch=watch)
     points, end = follow(onward.reversed(), growth=GROWTH, easy=EASY)
     if end != CLOSED:
@@ -396,7 +375,9 @@ class _CurveSearch:
                     step = end - begin
                     beyond = growth[end::step]
                     until = next((n for n, rate in enumerate(beyond) if rate < 0), len(beyond))
-                    most = until + 1 if growth[begin] < 0 else 1
+                    most = 1
+                    if growth[begin] < 0:
+                        most = until + 1
                     self._seek(cases[begin], along[end::step][:most])
 
     def _seek(self, case: Parameters, ends: Sequence[float]) -> None:
@@ -407,10 +388,8 @@ class _CurveSearch:
         name = next(iter(self.plane))
         begin = case.numbers[name]
         for end in ends:
-            span = (min(begin, end), max(begin, end))
             try:
-                problem, start = first_cycle(case, name, max(map(abs, span)), self.tol)
-                course = Tracer(problem, MOST_ON_LINE, span).follow(start, 1 if begin < end else -1)
+                problem, course = follow_between(case, name, begin, end, self.tol)
             except (ParameterError, Rejected) as error:
                 self.failures.append(f"{name}={begin:.6g}: {error}")
                 return
@@ -489,7 +468,7 @@ def _border_of(entries: Sequence[Entry]) -> Entry | None:
 def _curve(problem: BorderProblem, points: Sequence[CurvePoint]) -> StabilityCurve:
     """The curve of a border that was followed."""
     cycles = problem.cycles
-    mu = np.array([multipliers(point.jacobian)[0] for point in points])
+    mu = np.array([multipliers(point.found.jacobian)[0] for point in points])
     period = np.array([point.orbit.period for point in points])
     adjoins_stable = np.log(np.abs(mu)) / period < NEUTRAL  # no other multiplier grows
     places = np.flatnonzero(adjoins_stable)

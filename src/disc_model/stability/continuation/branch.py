@@ -6,11 +6,11 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
 import xarray as xr
-from pydantic import InstanceOf
+from pydantic import Field, InstanceOf
 
 from disc_model.arrays import Array, Mask
 from disc_model.data.columns import with_complex_values, with_real_parts
@@ -23,7 +23,7 @@ from disc_model.data.variables import (
 )
 from disc_model.display import counted, drawings, progress_bar
 from disc_model.engine.jit.cache import compiling
-from disc_model.errors import raise_faults, require, rule_of_choice
+from disc_model.errors import require, rule_of_choice
 from disc_model.parameters import Parameters
 from disc_model.provenance import versions_text
 from disc_model.simulation.states import State
@@ -49,7 +49,7 @@ from disc_model.stability.continuation.cycles import (
     first_cycle,
     leading,
 )
-from disc_model.stability.cycle import STICK_SLIP, guess_faults, multipliers
+from disc_model.stability.cycle import STICK_SLIP, Kind, multipliers, require_single
 from disc_model.stability.segments import extremes_of_cycle
 from disc_model.units import Count, CycleTolerance, checked
 
@@ -290,9 +290,11 @@ def row_of(problem: CycleProblem, point: CurvePoint) -> dict[str, Any]:
     own = {name: getattr(whole, name) for name in STATE}
     period = point.orbit.period
     low, high = extremes_of_cycle(problem.case(point.z), State(time=0.0, **own), period)
-    values = multipliers(point.jacobian)
+    values = multipliers(point.found.jacobian)
     largest = abs(complex(values[0]))
-    growth_rate = math.log(largest) / period if largest else -math.inf
+    growth_rate = -math.inf
+    if largest:
+        growth_rate = math.log(largest) / period
     return {
         problem.names[0]: float(problem.values(point.z)[0]),
         "growth_rate": growth_rate,
@@ -358,7 +360,9 @@ def _with_ends(course: Course) -> list[Entry]:
 
 def _end_of(end: str, entry: Entry) -> Entry:
     """The end of a branch as a special point; without a reason it is the start."""
-    kind = end if end in SHOWN_ENDS else "end"
+    kind = "end"
+    if end in SHOWN_ENDS:
+        kind = end
     return entry._replace(kind=kind, multiplier=leading(entry.point))
 
 
@@ -370,7 +374,9 @@ def _variables(
     known = OF_RESULTS["Branch"]
     variables = {dim: xr.Variable(dim, np.arange(rows.sum()), known[dim].attributes)}
     for name, column in columns.items():
-        second = "mode" if name in COORDINATES else "multiplier"
+        second = "multiplier"
+        if name in COORDINATES:
+            second = "mode"
         attrs = known[name].attributes if name in known else attributes(name)
         variables[begin + name] = xr.Variable((dim, second)[: column.ndim], column[rows], attrs)
     return variables
@@ -388,10 +394,10 @@ def continue_cycle(  # noqa: PLR0913
     *,
     direction: Literal[-1, 0, 1] = 0,
     guess: InstanceOf[State] | None = None,
-    releases: Count = 1,
+    releases: Annotated[Count, Field(ge=1)] = 1,
     tol: CycleTolerance = 1e-12,
     steps: StepControl = StepControl(),  # noqa: B008
-    kind: str = STICK_SLIP,
+    kind: Kind = STICK_SLIP,
     progress: bool = False,
 ) -> Branch:
     """Follow a cycle in one parameter by pseudo-arclength, through folds, until it leaves `bounds`.
@@ -435,7 +441,7 @@ def continue_cycle(  # noqa: PLR0913
     >>> print(f"{branch.folds[0]:.6f} rad/s")
     15.094912 rad/s
     """
-    raise_faults(guess_faults(guess, releases, kind))
+    require_single(guess, releases, kind)
     require_interval(case, name, bounds)
     require_within(case, name, bounds)
     farthest = max(map(abs, bounds))

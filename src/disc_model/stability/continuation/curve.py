@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Annotated, NamedTuple, Protocol
 
@@ -22,7 +22,7 @@ import numpy as np
 from pydantic import Field
 from scipy.optimize import linear_sum_assignment
 
-from disc_model.arrays import Array, ComplexArray, Indices, Mask
+from disc_model.arrays import Array, ComplexArray, Indices
 from disc_model.errors import DiscModelError
 from disc_model.stability.return_map import Orbit, newton_step, rounding
 from disc_model.units import Count, Positive, Strict
@@ -82,12 +82,15 @@ class StepControl(Strict):
 
 class Evaluation(NamedTuple):
     """F at a point z: its value (n,), its derivative `by` z, the orbit of the return map, and the
-    Jacobian of the map by x, (n, n)."""
+    Jacobian of the map by x, (n, n). Of a border of stability it also has the multiplier `mu` that is
+    followed, and its derivative by z, `turning`."""
 
     residual: Array
     by: Array
     orbit: Orbit
     jacobian: Array
+    mu: complex = 1.0
+    turning: ComplexArray = np.zeros(0, complex)
 
 
 class Problem(Protocol):
@@ -107,26 +110,21 @@ class Problem(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class CurvePoint:
-    """A point z of a curve, with F's derivative `by` z, the unit tangent, the sign of det [by;
-    tangent], and the cycle's orbit and Jacobian.
-
-    Of a border of stability it also has the multiplier `mu` that is followed, and the gradients of
-    the test function and of `mu` within the surface of cycles.
-    """
+    """A point z of a curve, with what is known of F there, the unit tangent, and the sign of
+    det [by; tangent]."""
 
     z: Array
-    by: Array
+    found: Evaluation
     tangent: Array
     orientation: float
-    orbit: Orbit
-    jacobian: Array
-    mu: complex = 1.0
-    gradient: Array = field(default_factory=lambda: np.zeros(0))
-    turning: Array = field(default_factory=lambda: np.zeros(0))
+
+    @property
+    def orbit(self) -> Orbit:
+        return self.found.orbit
 
     @cached_property
     def spectrum(self) -> Spectrum:
-        return spectrum_of(self.jacobian)
+        return spectrum_of(self.found.jacobian)
 
     @property
     def value(self) -> float:
@@ -205,7 +203,7 @@ def curve_point(z: Array, found: Evaluation, along: Array) -> CurvePoint:
         tangent = np.linalg.svd(found.by)[2][-1]
     tangent = np.asarray(tangent, dtype=np.float64) / float(np.linalg.norm(tangent))
     sign, _ = np.linalg.slogdet(np.vstack([found.by, tangent]))
-    return CurvePoint(z, found.by, tangent, float(sign), found.orbit, found.jacobian)
+    return CurvePoint(z, found, tangent, float(sign))
 
 
 class Guess(NamedTuple):
@@ -222,7 +220,7 @@ def predict(former: CurvePoint | None, current: CurvePoint, ds: float) -> Guess:
         length = float(np.linalg.norm(current.z - former.z))
         if ds <= FARTHEST_PREDICTION * length:
             return interpolate(former, current, 1 + ds / length)
-    return Guess(current.z + ds * current.tangent, current.by)
+    return Guess(current.z + ds * current.tangent, current.found.by)
 
 
 def interpolate(before: CurvePoint, after: CurvePoint, share: float) -> Guess:
@@ -232,7 +230,7 @@ def interpolate(before: CurvePoint, after: CurvePoint, share: float) -> Guess:
     rest = 1 - share
     ends = rest**2 * (1 + 2 * share) * before.z + share**2 * (1 + 2 * rest) * after.z
     bend = share * rest * (rest * before.tangent - share * after.tangent)
-    return Guess(ends + length * bend, rest * before.by + share * after.by)
+    return Guess(ends + length * bend, rest * before.found.by + share * after.found.by)
 
 
 def check_step(
@@ -262,7 +260,9 @@ def passes(before: CurvePoint, after: CurvePoint, known: CurvePoint, near: float
     if not 0 < share <= 1:
         return None
     apart = float(np.linalg.norm(interpolate(before, after, share).z - known.z))
-    return share if apart <= near * length else None
+    if apart <= near * length:
+        return share
+    return None
 
 
 def follow_curve(
@@ -355,21 +355,13 @@ class Turns(NamedTuple):
 
 
 def turns_between(before: Spectrum, after: Spectrum) -> Turns:
-    """How multipliers turn between two points."""
-    return turns_of(before.values, after.values[follow_multipliers(before, after)])
-
-
-def turns_of(multipliers: ComplexArray, successors: ComplexArray) -> Turns:
-    """How multipliers turn, each beside the one that it becomes."""
-    followed = are_slow(multipliers, successors) & (multipliers.imag > 0)
-    both = np.array([multipliers[followed], successors[followed]])
+    """How multipliers turn between two points; those that are damped more strongly at one of them cause
+    no loss of stability."""
+    successors = after.values[follow_multipliers(before, after)]
+    weakly_damped = np.minimum(np.abs(before.values), np.abs(successors)) > STRONGLY_DAMPED
+    followed = weakly_damped & (before.values.imag > 0)
+    both = np.array([before.values[followed], successors[followed]])
     return Turns(np.angle(both[0]), np.angle(both[1] / both[0]), np.abs(1 - np.abs(both)))
-
-
-def are_slow(multipliers: ComplexArray, successors: ComplexArray) -> Mask:
-    """Whether multipliers, and those that they become, are damped so little that they may cause a
-    loss of stability."""
-    return np.asarray(np.minimum(np.abs(multipliers), np.abs(successors)) > STRONGLY_DAMPED)
 
 
 def passings(between: Turns) -> list[Passing]:

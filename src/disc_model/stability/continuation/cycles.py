@@ -83,6 +83,7 @@ SMALLEST_PEAK = 1e-5  # the same, over the static deflection
 # map no corrector comes to a point so near.
 CORNER = 1e-5
 PRECISION = 1e-9  # of the share of a step at which a point is located: what remains is its square
+MOST_BETWEEN = 500  # points of a branch from one value to another
 EVEN = 0.5  # least slope over the largest one, of a curve without folds between two points
 STEEP = 0.1  # slope of the tangent above which a step ends at a given parameter, so that one map serves it
 
@@ -126,7 +127,9 @@ def parameter_scale(p: Parameters, name: str, farthest: float = 0.0) -> float:
     of the `farthest` value to which it is followed, whichever is most."""
     value = abs(p.numbers[name])
     usual = USUAL.get(name, DEFAULTS.get(name))
-    typical = SMALLEST * usual if isinstance(usual, float) else 0.0
+    typical = 0.0
+    if isinstance(usual, float):
+        typical = SMALLEST * usual
     return max(value, typical, SMALLEST_OF_SPAN * abs(farthest)) or 1.0
 
 
@@ -297,7 +300,9 @@ def first_cycle(
         hint = f"start from another value of {name}, or give another guess"
         rule = f"must have a cycle, but the search ended with {cycle.message}; {hint}"
         raise ParameterError(Fault(("guess" if may_separate else "case",), "", rule))
-    order = cycle.releases if may_separate else 0
+    order = 0
+    if may_separate:
+        order = cycle.releases
     section = SlippingMap if slips else None
     problem = CycleProblem(p, [name], [parameter_scale(p, name, farthest)], tol, order, section)
     z = problem.place(problem.reference.point(cycle.state))
@@ -315,7 +320,9 @@ def cycle_at_value(problem: CycleProblem, z: Array) -> tuple[Array, Evaluation]:
 def leading(point: CurvePoint) -> complex:
     """The multiplier of largest modulus; 0 on a section of a single point."""
     values = point.spectrum.values
-    return complex(values[np.argmax(np.abs(values))]) if values.size else 0j
+    if values.size:
+        return complex(values[np.argmax(np.abs(values))])
+    return 0j
 
 
 def nearest(values: ComplexArray, wanted: complex) -> complex:
@@ -402,7 +409,9 @@ class Tracer:
         if not end:
             watch = partial(self._take, entries)
             points, why = follow_curve(start, self._advance, self.steps, watch)
-            end = _loss(self.problem, points[-1], why) if isinstance(why, Rejected) else why
+            if isinstance(why, Rejected):
+                why = _loss(self.problem, points[-1], why)
+            end = why
         if end == HOPF:
             last = entries[-1].point.z
             entries = [
@@ -432,7 +441,7 @@ class Tracer:
         for point, kind, multiplier in found:
             bound = min(max(point.value, self.low), self.high)
             if kind == FOLD and point.value != bound and not self.steps.beyond:
-                at_bound = self._at_value(before, point, bound)
+                at_bound = self.locate(before, point, partial(_excess_over, bound))
                 if at_bound is not None:
                     entries.append(self._entry(at_bound))
                 return BOUND
@@ -448,7 +457,9 @@ class Tracer:
         else:
             below = point.slope < 0 and point.value <= self.low + margin(self.low)
             leaves = below or (point.slope > 0 and point.value >= self.high - margin(self.high))
-        return BOUND if leaves else ""
+        if leaves:
+            return BOUND
+        return ""
 
     def _closes(self, before: CurvePoint, after: CurvePoint, known: CurvePoint) -> bool:
         """Whether the curve between two neighbours passes through a known point in its sense."""
@@ -511,21 +522,6 @@ class Tracer:
             *self._resonances(there, after, deepest - 1),
         ]
 
-    def _at_value(self, before: CurvePoint, after: CurvePoint, value: float) -> CurvePoint | None:
-        """The point of the curve between two neighbours with a given scaled value of the parameter,
-        which lies between theirs; None if it cannot be computed."""
-
-        def excess(share: float) -> float:
-            return float(interpolate(before, after, share).z[-1]) - value
-
-        guess = interpolate(before, after, float(brentq(excess, 0.0, 1.0)))
-        guess.z[-1] = value
-        row = parameter_row(len(guess.z), after.value - before.value)
-        try:
-            return self._near(before, after, guess, row)
-        except Rejected:  # as beside a fold
-            return self.locate(before, after, lambda point: point.value - value)
-
     def locate(
         self, before: CurvePoint, after: CurvePoint, test: Callable[[CurvePoint], float]
     ) -> CurvePoint | None:
@@ -548,19 +544,37 @@ class Tracer:
 
     def _between(self, before: CurvePoint, after: CurvePoint, share: float) -> CurvePoint:
         """The point of the curve at a share of the way between two neighbours."""
-        guess = interpolate(before, after, share)
-        return self._near(before, after, guess, _plane_between(before, after))
-
-    def _near(self, before: CurvePoint, after: CurvePoint, guess: Guess, row: Array) -> CurvePoint:
         chord = after.z - before.z
-        return self._solve(guess, chord, row, max(FARTHEST * float(np.linalg.norm(chord)), 1e-6))
+        radius = max(FARTHEST * float(np.linalg.norm(chord)), 1e-6)
+        row = _plane_between(before, after)
+        return self._solve(interpolate(before, after, share), chord, row, radius)
 
     def _solve(self, guess: Guess, along: Array, row: Array, radius: float) -> CurvePoint:
         """The point of the curve in the plane through a guess, in the sense of a vector."""
         matrix = np.vstack([guess.by, row])
         z, found = solve(self.problem, guess.z, row[None, :], matrix, radius)
         point = curve_point(z, found, row)
-        return point if float(point.tangent @ along) >= 0 else point.reversed()
+        if float(point.tangent @ along) >= 0:
+            return point
+        return point.reversed()
+
+
+def follow_between(
+    p: Parameters, name: str, begin: float, end: float, tol: float, longest: float = 0.1
+) -> tuple[CycleProblem, Course]:
+    """The branch of the cycle near the static start from one value of a parameter towards another, in
+    steps up to the `longest`; errors are those of `first_cycle`."""
+    span = (min(begin, end), max(begin, end))
+    case = p.replace(**{name: begin})
+    problem, start = first_cycle(case, name, max(map(abs, span)), tol)
+    steps = StepControl(longest=longest, max_points=MOST_BETWEEN)
+    tracer = Tracer(problem, steps, span)
+    return problem, tracer.follow(start, direction=int(np.sign(end - begin)))
+
+
+def _excess_over(bound: float, point: CurvePoint) -> float:
+    """The scaled parameter of a point over a bound."""
+    return point.value - bound
 
 
 def _check(before: CurvePoint, after: CurvePoint) -> None:
@@ -599,7 +613,9 @@ def _unseen(passed: list[Passing]) -> list[Passing]:
     ones and, of the others, those of the least damped multipliers."""
     hidden = [each for each in passed if each.distance > RESONANT * max(each.width, NARROWEST)]
     others = sorted(each.width for each in hidden if not each.forced)
-    widest = others[MOST_TONGUES - 1] if len(others) > MOST_TONGUES else np.inf
+    widest = np.inf
+    if len(others) > MOST_TONGUES:
+        widest = others[MOST_TONGUES - 1]
     return [each for each in hidden if each.forced or each.width <= widest]
 
 
@@ -621,7 +637,9 @@ def _loss(problem: CycleProblem, last: CurvePoint, rejected: Rejected) -> str:
         same = motion.returned and motion.counts == cycle.counts
         if not same or moved > SAME_TIMES * cycle.period:
             return GRAZING
-    return GRAZING if abs(leading(last)) > STEEPEST else LOST
+    if abs(leading(last)) > STEEPEST:
+        return GRAZING
+    return LOST
 
 
 # ---- Special points: a test function changes sign between two points, and its root is located
@@ -701,7 +719,9 @@ def _excess(start: CurvePoint, i: int, point: CurvePoint) -> float:
     """By how much the modulus of the i-th multiplier exceeds one at a point; the mean modulus where
     the pair has become two real ones."""
     first, second = _followed(start, i, point)
-    return abs(first) - 1 if first.imag != 0 else abs(first * second) ** 0.5 - 1
+    if first.imag != 0:
+        return abs(first) - 1
+    return abs(first * second) ** 0.5 - 1
 
 
 # ---- Period doublings seen from the cycle of twice the period. A cycle of an even number of

@@ -1,7 +1,6 @@
 """Outcome of the static start, and the cycle that it follows.
 
-Multipliers give the outcome where the start stays on its cycle, or grows too slowly for anything else.
-Elsewhere the start is followed.
+Multipliers give the outcome where the start stays on its cycle. Elsewhere the start is followed.
 """
 
 from __future__ import annotations
@@ -63,8 +62,6 @@ def regions(
     message = ""
     if followed and followed.cycle.stable:
         values["outcome"] = Outcome.STICK_SLIP
-    elif followed and followed.stays_linear_until(horizon):
-        values["outcome"] = Outcome.GROWING
     else:
         is_timed = any(place.items() <= case.numbers.items() for place in timed)
         compared_with: tuple[float, ...] = (horizon,)
