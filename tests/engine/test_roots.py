@@ -3,15 +3,13 @@
 from fractions import Fraction
 from itertools import pairwise
 
-import numba
 import numpy as np
 import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from disc_model.engine import roots
 from disc_model.engine.model import ROWS
-from disc_model.engine.roots import NO_ROOT, dot, first_root, set_powers
+from disc_model.engine.roots import NO_ROOT, first_root, set_powers
 from disc_model.engine.state import aligned
 
 DEGREE = 24

@@ -139,26 +139,9 @@ def kept_events(rows: Iterable[tuple[Any, ...]], start: float, stop: float) -> x
 
 # ---- Grid studies
 
-WORDS = (
-    "ok",
-    "failed",
-    "stick_slip",
-    "growing",
-    "separation",
-    "no_cycle",
-    "no_stick_slip",
-    "none",
-    "begins",
-    "ends",
-    "neutral",
-    "fold",
-    "no",
-    "yes",
-    "settled",
-    "changing",
-    "simulation",
-    "undecided",
-)
+
+WORDS = """ok failed stick_slip growing separation no_cycle no_stick_slip none begins ends neutral fold no yes settled
+changing simulation undecided""".split()
 """Words of flags."""
 
 
