@@ -14,12 +14,14 @@ from disc_model.engine.state import (
     KNOWN,
     KNOWN_FORCE,
     PHASE,
+    PHI_RATE,
     PSI,
     SEPARATION,
     SLIP,
     STICK,
     TIME,
     TIME_LOW,
+    EngineState,
 )
 from disc_model.engine.step import Step
 from disc_model.engine.transitions import (
@@ -46,12 +48,17 @@ SURFACE = REST.replace(friction_offset=0.01)
 Coefficients = dict[str | int, tuple[float, ...]]
 
 
+def resting(model: Model, phase: int, direction: int, rate: float = 0.0) -> EngineState:
+    """A phase that begins on a resting disc."""
+    state = build_state(model)
+    state.x[[PHASE, DIRECTION, PHI_RATE]] = phase, direction, rate
+    return state
+
+
 def first_event(model: Model, phase: int, coefficients: Coefficients) -> tuple[float, int]:
     """Place and cause of the end of a phase that begins on a resting disc, within a unit of time:
     coefficients of series by name, and numbers of the state by place."""
-    state = build_state(model)
-    state.x[PHASE] = phase
-    state.x[DIRECTION] = int(phase == SLIP)
+    state = resting(model, phase, int(phase == SLIP))
     series = build_series(model, ORDER)
     for function in (series.switch, series.switch2, series.P):
         function[0] = 1.0
@@ -113,6 +120,33 @@ def test_a_drive_that_begins_to_move_pulls(rate: float) -> None:
     assert cause == (RELEASE_FORWARD if rate else CONTACT_LOST)
 
 
+@pytest.mark.parametrize(
+    ("speed", "rate", "place"),
+    [
+        # within errors of the release: of g, and, at a smooth one, of g' too
+        (-0.9, None, 0.5),
+        (-0.9, -0.9, 0.5),
+        # more than an error
+        (-1.1, None, 0.0),
+        (-0.9, -1.1, 0.0),
+    ],
+)
+def test_slip_that_has_just_begun_does_not_end_by_errors_of_its_start(
+    speed: float, rate: float | None, place: float
+) -> None:
+    """Pull and friction err by the tolerance, and accelerate the slider."""
+    model = engine_case(P).model
+    force = P.c_p * P.Omega + P.mu_k * P.N / P.r_0
+    error = TOLERANCE * model.unit / P.m * force
+    start = speed * (error + TOLERANCE * P.Omega)
+    slip: tuple[float, ...] = (start, 1e6, -2e6)
+    if rate:
+        slip = (start, rate * error, 1e9, -2e9)
+    found, cause = first_event(model, SLIP, {"switch": slip})
+    assert found == pytest.approx(place, rel=1e-6)
+    assert cause == AT_REST
+
+
 def test_the_clock_loses_nothing_by_rounding() -> None:
     """A thousand steps beside a time of 100 s, whose rounding is 1e-14 s each."""
     model = engine_case(P).model
@@ -125,3 +159,21 @@ def test_the_clock_loses_nothing_by_rounding() -> None:
     time = Fraction(float(state.x[TIME])) + Fraction(float(state.x[TIME_LOW]))
     assert abs(time - exact) < 1e-17
     assert not step.advance_clock(model, state, Step(0, ORDER, 0.0, NOTHING))
+
+
+@pytest.mark.parametrize(
+    ("direction", "rate", "after"), [(1, -1e-9, 0.0), (-1, 1e-9, 0.0), (1, 1e-9, 1e-9)]
+)
+def test_slip_beyond_its_end_is_at_rest(direction: int, rate: float, after: float) -> None:
+    state = resting(engine_case(P).model, SLIP, direction, rate)
+    step.settle(state)
+    assert state.x[PHI_RATE] == after
+
+
+@pytest.mark.parametrize(("part", "left"), [(0.5, 1.0), (2.0, 0.0)])
+def test_a_run_that_is_cut_at_once_keeps_the_roots_of_its_start(part: float, left: float) -> None:
+    model = engine_case(P).model
+    state = build_state(model)
+    state.x[[KNOWN, KNOWN_FORCE]] = 1.0
+    step.advance_clock(model, state, Step(0, ORDER, part * step.JUST_BEGUN, NOTHING))
+    assert state.x[[KNOWN, KNOWN_FORCE]].tolist() == [left, left]
