@@ -5,8 +5,8 @@ Run from the repository's root::
     python -m tests.benchmarks.make_references
 
 None is found by the engine: scenes by the long-double Taylor series of tests/references, and answers
-by heyoka at two tolerances, whose difference is stored as their error. The states at which motions
-start are the engine's, because any state would do there. The rigid disc's answer is that of the
+by heyoka at two tolerances, whose difference is stored as their error. Starts of motions,
+which any states could be, stay as stored. The rigid disc's answer is that of the
 textbook friction oscillator, exact to the disc's remaining flexibility of 3e-9, and stays as stored.
 """
 
@@ -19,15 +19,12 @@ from benchmarks import answers
 from benchmarks.methods import METHODS
 from benchmarks.scenes import problem, stated, stored
 from disc_model.errors import script
-from disc_model.simulation.api import simulate
 from tests.references import stored as references
 from tests.references.make_stored_references import decimal, repeated
 from tests.references.taylor import problem_of
 
 DATA = Path("benchmarks/data")
 TOLERANCES = (1e-13, 1e-15)
-STARTS = {"settled": (answers.SETTLED, 250.0), "growing": (answers.GROWING, 100.0)}
-"""Cases, and times in s of the states at which motions start."""
 
 
 def scene(name):
@@ -81,9 +78,6 @@ def main():
     """Write all files."""
     right = {name: scene(name) for name in ("stick_slip", "separating", "many_modes")}
     write("benchmark_reference", stored("benchmark_reference") | right)
-    states = {
-        name: references.as_json(simulate(p, time, tol=1e-14).final_state)
-        for name, (p, time) in STARTS.items()
-    }
-    write("answers", {"starts": states})
-    write("answers", {"starts": states, "references": answers_by_heyoka()})
+    starts = {"starts": stored("answers")["starts"]}
+    write("answers", starts)
+    write("answers", starts | {"references": answers_by_heyoka()})
