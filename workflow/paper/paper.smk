@@ -107,7 +107,7 @@ rule compare_normalisations:
 
 
 rule judge_survival:
-    # Needs the motions and grids of config/survival.yaml.
+    # For `--configfile config/survival.yaml`, whose motions and grids it needs.
     input:
         cases=collect("results/survival/cases/{x}.nc", x=STUDY.cases),
         grids=[f"results/{name}/{name}.nc" for name in SURVIVAL_GRIDS],

@@ -208,8 +208,10 @@ def late_widths(cases: Cases, wider: float) -> Found:
             stretches = 1
             found["steep"].append(f"{case.place} after {bilateral['time_reached']:.0f} s")
         other = bilateral.last_widths("w_point", measures.STRETCH, stretches)
+        # an irregular motion has a wider range over a longer time, so that equal times count as well
+        alike = case.last_widths("w_point", measures.STRETCH, measures.STRETCHES)
         smaller = None
-        if min(third, fourth) >= max(other):
+        if min(third, fourth, *alike) >= max(other):
             smaller = False
         elif fourth <= (1 + wider) * third and max(third, fourth) < min(other):
             smaller = True
