@@ -2,7 +2,6 @@
 
 import math
 
-import numpy as np
 import pytest
 
 from benchmarks import scenes
@@ -12,14 +11,13 @@ from benchmarks.methods.integrators import Problem, RunStatus
 from benchmarks.scenes import answer, problem
 from tests import needs
 from tests.contact_laws import ALL_LAWS
-from tests.references.printed import MOTIONS, P, Printed, lively
+from tests.references.printed import P, lively
 from tests.refusals import refusal
 
 RIVALS = ("RK4", "RK45", "DOP853", "heyoka", "CVODE")
 SHORT = [name for name in RIVALS if not METHODS[name].absent()]
 FINE = {"step": 2e-6, "tol": 1e-9}
 """Settings at which a method is accurate on short motions."""
-STATE = ("a", "b", "alpha", "beta", "psi", "f", "u", "u_velocity")
 
 
 @pytest.mark.slow
@@ -57,38 +55,15 @@ def test_every_method_finds_all_switches(
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", SHORT)
-@pytest.mark.parametrize(("phase", "direction"), MOTIONS)
-def test_a_short_motion_is_the_printed_one(name: str, phase: str, direction: int) -> None:
-    motion = Problem(P, lively(phase, direction, P), 1e-4)
-    result = METHODS[name].solve(motion, FINE[METHODS[name].setting])
-    assert (result.outcome, result.kinds) == (RunStatus.FINISHED, ())
-    printed = Printed(P, motion.start)
-    end = printed.at(motion.t_end)
-    for quantity in STATE:
-        size = max(np.max(np.abs(end[quantity])), 1e-12)
-        found = getattr(result.final, quantity)
-        np.testing.assert_allclose(found, end[quantity], rtol=0, atol=1e-6 * size)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("name", SHORT)
-@pytest.mark.parametrize(
-    ("f", "budget", "outcomes"),
-    [
-        (None, 0.0, {RunStatus.TOO_SLOW}),
-        # overflows
-        (1e160, 1.0, {RunStatus.NON_FINITE, RunStatus.FAILED}),
-    ],
-)
-def test_what_does_not_end_is_no_answer(
-    name: str, f: float | None, budget: float, outcomes: set[RunStatus]
-) -> None:
-    if name == "CVODE" and f:
-        pytest.skip("its library takes such a state for an error of the program")
+def test_what_does_not_end_is_no_answer(name: str) -> None:
     start = lively("slip", 1, P)
-    motion = Problem(P, start.replace(f=f or start.f), 2e-4)
-    result = METHODS[name].solve(motion, FINE[METHODS[name].setting], budget)
-    assert result.outcome in outcomes
+    method = METHODS[name]
+    fine = FINE[method.setting]
+    assert method.solve(Problem(P, start, 2e-4), fine, 0.0).outcome == RunStatus.TOO_SLOW
+    if name != "CVODE":  # its library takes such a state for an error of the program
+        overflowing = Problem(P, start.replace(f=1e160), 2e-4)
+        outcome = method.solve(overflowing, fine, 1.0).outcome
+        assert outcome in {RunStatus.NON_FINITE, RunStatus.FAILED}
 
 
 @pytest.mark.parametrize("law", ALL_LAWS)

@@ -219,11 +219,6 @@ NOTEBOOKS = sorted((DOCS / "notebooks").glob("*.md"))
 CELL = re.compile(r"^```{code-cell}\n(?::tags:[^\n]*\n)?(.*?)^```$", re.M | re.S)
 
 
-@pytest.mark.parametrize("page", NOTEBOOKS, ids=lambda page: page.stem)
-def test_notebooks_are_short(page: Path) -> None:
-    assert page.read_text(encoding="utf-8").count("\n") <= 90, "a screen and a half"
-
-
 @pytest.mark.slow
 @pytest.mark.parametrize("page", NOTEBOOKS, ids=lambda page: page.stem)
 def test_notebooks_show_what_they_say(

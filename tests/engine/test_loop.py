@@ -7,7 +7,7 @@ import numba
 import numpy as np
 import pytest
 
-from disc_model import Parameters, Window, plate_modes, simulate
+from disc_model import Parameters, Window, initial_state, plate_modes, simulate
 from disc_model.engine import step, transitions
 from disc_model.engine.model import build_state
 from disc_model.engine.state import U, known_roots
@@ -15,6 +15,7 @@ from disc_model.errors import DiscModelError
 from disc_model.simulation.result import EVENT_KINDS, PHASES
 from disc_model.simulation.states import engine_case
 from disc_model.stability.return_map import ReturnMap
+from tests.contact_laws import COMPILES
 from tests.engine.test_saltation import differences, solved
 from tests.references import printed
 
@@ -131,32 +132,6 @@ def test_rounding_of_a_gap_is_that_of_the_modes_it_is_made_of(gap: float, known:
     assert known_roots(here)[0] == known
 
 
-@pytest.mark.compiled
-@pytest.mark.parametrize(
-    "law",
-    [
-        # without a drop of friction, and where it falls, slip begins with f = f' = 0
-        {"mu_s": 0.3, "mu_k": 0.3},
-        pytest.param({"friction_decay": 0.5, "contact_compliance": 1e-7}, marks=pytest.mark.slow),
-    ],
-    ids=["even", "falling"],
-)
-def test_a_run_cut_at_a_switch_continues_with_the_same_switches(law: dict[str, float]) -> None:
-    """It was refused, as f had the wrong sign by rounding; or slip ended at once and began again."""
-    p = Parameters(N=385, Omega=15.1, **law)
-    whole = simulate(p, 1.05).events
-    times = whole["time"].to_numpy()
-    kinds = list(whole["kind"])
-    for cut in times[times < 1.02]:
-        for end in (np.nextafter(cut, 0), cut, np.nextafter(cut, 9), cut + 1e-15):
-            first = simulate(p, float(end))
-            second = simulate(p, 1.05, initial_state=first.final_state)
-            assert [*first.events["kind"], *second.events["kind"]] == kinds
-            got = np.concatenate([first.events["time"], second.events["time"]])
-            # local errors of 1e-10 s a second; a cut begins another series
-            np.testing.assert_allclose(got, times, rtol=0, atol=1e-9)
-
-
 def test_a_sample_on_a_switch_shows_the_side_before_it() -> None:
     """Moved by less than rounding moves a switch it still does; moved by more it shows the side
     after."""
@@ -188,3 +163,32 @@ def test_a_sample_on_a_switch_shows_the_side_before_it() -> None:
     assert seen == set(EVENT_KINDS) - {"slip_reversal"}, (
         "a kind of switch that changes the phase is missing"
     )
+
+
+# ------------------------------------------------------------------------------------- touching down
+@pytest.mark.parametrize("sense", [pytest.param(sense, marks=COMPILES) for sense in (1, -1)])
+@pytest.mark.parametrize(
+    ("psi", "f", "after"),
+    [
+        (0.02, 0.0, 0.08),  # without speed it slips to the side of its spring
+        (-0.02, 5.0, 4.91),  # with speed it slips on, against its spring
+    ],
+)
+def test_a_slider_that_touches_down_slips(psi: float, f: float, after: float, sense: int) -> None:
+    """The spring takes k_p psi t / m = 0.08 rad/s, and the contact force is still too small to stop
+    the slider."""
+    p = Parameters(N=200, Omega=10, n_diameters=1, contact_compliance=1e-7)
+    start = initial_state(p)
+    falling = start.replace(
+        phase="separation",
+        direction=0,
+        psi=sense * psi,
+        u=p.N * 1e-7 + start.u,  # N C below the disc at rest
+        u_velocity=-0.2,
+        f=sense * f,
+        _roots=(0, 0),
+    )
+    run = simulate(p, 2e-5, initial_state=falling)
+    assert list(run.events.kind) == ["reattachment"]
+    assert run.final_state.direction == sense
+    assert run.final_state.f == pytest.approx(sense * after, abs=0.02)

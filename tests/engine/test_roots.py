@@ -3,15 +3,13 @@
 from fractions import Fraction
 from itertools import pairwise
 
-import numba
 import numpy as np
 import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from disc_model.engine import roots
 from disc_model.engine.model import ROWS
-from disc_model.engine.roots import NO_ROOT, dot, first_root, set_powers
+from disc_model.engine.roots import NO_ROOT, first_root, set_powers
 from disc_model.engine.state import aligned
 
 DEGREE = 24
@@ -135,27 +133,6 @@ def test_no_root_is_hidden(drawn: tuple[list[float], float]) -> None:
         assert value(c, until) <= rounding
 
 
-def test_powers_beyond_the_order_are_zero_and_leave_what_stands_behind_a_series_out() -> None:
-    powers = np.full(24, np.nan)
-    c = np.arange(1.0, 25.0)
-    set_powers(powers, 1.3, 18)
-    # a power of 18 is the product of up to six rounded ones
-    np.testing.assert_allclose(powers[:19], 1.3 ** np.arange(19), rtol=2e-15)
-    assert (powers[19:] == 0).all()
-    assert dot(c, 0, powers, 18) == pytest.approx(np.polyval(c[18::-1], 1.3), rel=1e-14)
-
-
-def test_the_last_step_to_a_root_is_small_enough() -> None:
-    # half a bounce, sin(x) / x, which ends at pi; 24 terms of it are right to 4^25 / 25! = 7e-11
-    k = np.arange(DEGREE)
-    c = np.where(k % 2 == 0, (-1.0) ** (k // 2), 0.0) / np.cumprod(k + 1.0)
-    root = first(c, 3.5)
-    assert root == pytest.approx(np.pi, abs=1e-10)
-    # a step of 1e-5 over which the slope changes by 1e-4 of itself leaves 1e-13 at most
-    slope = np.polynomial.polynomial.polyval(root, np.polynomial.polynomial.polyder(c))
-    assert abs(np.polynomial.polynomial.polyval(root, c) / slope) < 1e-13 * root
-
-
 @pytest.mark.parametrize("degree", [3, 6, 7, 8, 15, 17])
 def test_the_highest_terms_of_any_degree_count(degree: int) -> None:
     """Also where they do not fill a block of lanes, and where only they bring the function down."""
@@ -172,25 +149,6 @@ def test_the_highest_terms_of_any_degree_count(degree: int) -> None:
     both[:3] = [0.56, -1.5, 1.0]
     both[degree - 2 :] += [0.56, -1.5, 1.0]
     assert first(both, degree=degree) == pytest.approx(0.7, rel=1e-13)
-
-
-@pytest.mark.skipif(not numba.config.DISABLE_JIT, reason="compiled code cannot be watched")
-@pytest.mark.parametrize("all_roots", [[0.6], [0.3, 0.8], [0.2, 0.9, 1.4], [0.45, -0.1, -2.0]])
-def test_a_root_that_is_alone_takes_few_steps(
-    all_roots: list[float], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """Halving would find it with any slope and curvature, in fifty."""
-    read = []
-
-    def item(array: np.ndarray, i: int) -> float:
-        read.append(i)
-        return array[i]
-
-    monkeypatch.setattr(roots, "item", item)
-    wanted = min(root for root in all_roots if root > 0)
-    assert first(from_roots(all_roots)) == pytest.approx(wanted, rel=1e-14)
-    # all coefficients in each of four steps, and some of those before
-    assert len(read) < 6 * DEGREE
 
 
 def test_a_pair_of_roots_early_in_a_step_is_as_precise_as_others() -> None:

@@ -31,30 +31,6 @@ def linking_texts() -> dict[str, str]:
     return {str(path.relative_to(ROOT)): path.read_text(encoding="utf-8") for path in paths}
 
 
-def lines_with_addresses(addresses: dict[str, str]) -> dict[str, list[str]]:
-    """Lines by which files have to state the addresses of what is published, by file."""
-    lines: dict[str, list[str]] = {name: [] for name in LINKING}
-    lines["README.md"] += [f"[{name}]({address})" for name, address in addresses.items()]
-    if "Repository" in addresses:
-        lines["CITATION.cff"].append(f"repository-code: {addresses['Repository']}")
-    if "Documentation" in addresses:
-        lines["CITATION.cff"].append(f"url: {addresses['Documentation']}")
-    if "DOI" in addresses:
-        lines["CITATION.cff"].append(f"doi: {addresses['DOI'].removeprefix('https://doi.org/')}")
-    return lines
-
-
-def test_pages_state_the_addresses_of_pyproject() -> None:
-    texts = linking_texts()
-    missing = [
-        f"{path}: no {line}"
-        for path, lines in lines_with_addresses(ADDRESSES).items()
-        for line in lines
-        if line not in texts[path]
-    ]
-    assert not missing, "\n".join(missing)
-
-
 def test_what_is_not_published_is_not_linked() -> None:
     published = " ".join(ADDRESSES.values())
     texts = linking_texts()

@@ -139,25 +139,10 @@ def kept_events(rows: Iterable[tuple[Any, ...]], start: float, stop: float) -> x
 
 # ---- Grid studies
 
+
 WORDS = (
-    "ok",
-    "failed",
-    "stick_slip",
-    "growing",
-    "separation",
-    "no_cycle",
-    "no_stick_slip",
-    "none",
-    "begins",
-    "ends",
-    "neutral",
-    "fold",
-    "no",
-    "yes",
-    "settled",
-    "changing",
-    "simulation",
-    "undecided",
+    "ok failed stick_slip growing separation no_cycle no_stick_slip none begins ends neutral fold no yes "
+    "settled changing simulation undecided"
 )
 """Words of flags."""
 
@@ -181,8 +166,8 @@ def grid(
         values = np.asarray(given)
         attrs = {}
         if values.dtype.kind == "U":
-            values = np.vectorize(WORDS.index)(values)
-            attrs = {"flag_meanings": " ".join(WORDS), "flag_values": [*range(len(WORDS))]}
+            values = np.vectorize(WORDS.split().index)(values)
+            attrs = {"flag_meanings": WORDS, "flag_values": [*range(len(WORDS.split()))]}
         dims = list(axes)[: values.ndim]
         found[name] = (dims, values, attrs)
     return found

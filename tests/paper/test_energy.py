@@ -58,15 +58,6 @@ def test_a_growing_motion_is_met_where_its_range_has_a_width() -> None:
         at_range(GROWS, 30.0, 0.1, history)
 
 
-def numbered(*numbers: float) -> list[Powers]:
-    """Return powers of which each is a multiple of a number, in the order of their fields."""
-    return [Powers(*(number * np.arange(1.0, 6.0))) for number in numbers]
-
-
-@pytest.mark.parametrize(
-    ("numbers", "mean_of_last"), [((1, 2, 3, 4, 5, 6, 7, 9), 8.0), ((5, 7, 1, 3), 3.0)]
-)
-def test_the_end_is_the_last_quarter_of_the_stages(
-    numbers: tuple[float, ...], mean_of_last: float
-) -> None:
-    assert in_the_end(numbered(*numbers)) == numbered(mean_of_last)[0]
+def test_the_end_is_the_last_quarter_of_the_stages() -> None:
+    history = [Powers(*[float(number)] * 5) for number in (1, 2, 3, 4, 5, 6, 7, 9)]
+    assert in_the_end(history) == Powers(*[8.0] * 5)

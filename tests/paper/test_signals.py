@@ -51,11 +51,21 @@ def test_what_stands_on_the_skirt_of_a_line_is_no_evidence() -> None:
             assert chance(TIME, values, line, 2) > 1e-3
 
 
-def test_points_count_as_one_within_a_hundredth_of_the_range_along_every_axis() -> None:
-    square = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 10.0], [1.0, 10.0]])
-    assert distinct_points(np.zeros((0, 2)), 0.01) == 0
-    assert distinct_points(np.vstack([square, np.add(square, [0.009, 0.09])]), 0.01) == 4
-    assert distinct_points(np.vstack([square, np.add(square, [0.0, 0.12])]), 0.01) == 8
-    assert distinct_points(square, 1.5) == 1
-    constant = np.column_stack([np.full(4, 3.0) + 1e-15 * np.arange(4), [0.0, 0, 1, 1]])
-    assert distinct_points(constant, 0.01) == 2
+SQUARE = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 10.0], [1.0, 10.0]])
+CONSTANT = np.column_stack([3.0 + 1e-15 * np.arange(4), [0.0, 0, 1, 1]])
+
+
+@pytest.mark.parametrize(
+    ("points", "share", "count"),
+    [
+        (np.zeros((0, 2)), 0.01, 0),
+        (np.vstack([SQUARE, np.add(SQUARE, [0.009, 0.09])]), 0.01, 4),
+        (np.vstack([SQUARE, np.add(SQUARE, [0.0, 0.12])]), 0.01, 8),
+        (SQUARE, 1.5, 1),
+        (CONSTANT, 0.01, 2),
+    ],
+)
+def test_points_count_as_one_within_a_share_of_the_range_along_every_axis(
+    points: np.ndarray, share: float, count: int
+) -> None:
+    assert distinct_points(points, share) == count

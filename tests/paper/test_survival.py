@@ -5,6 +5,7 @@ Each is judged by made-up data on which it is true, on which it is not, and whic
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -16,22 +17,13 @@ from tests.analysis.test_classify import logistic
 from tests.paper.evidence import grid, kept_events
 from workflow.paper import survival
 from workflow.paper.measures import CaseView
-from workflow.paper.model import FALSE, NOT_COMPUTED, PART, TRUE, Answer
+from workflow.paper.model import FALSE, NOT_COMPUTED, PART, TRUE
 from workflow.paper.survival import CHANGED, CONCLUSIONS, MODELS
 
 BY_TITLE = {row.id: row for row in CONCLUSIONS}
 CONFIG = Path(__file__).parents[2] / "config"
 NAN = float("nan")
 POINTS = {"N": [50.0, 385.0], "Omega": [10.0, 20.0, 30.0]}
-
-
-def judged(title: str, *cases: CaseView, **grids: xr.Dataset) -> Answer:
-    """Judge a conclusion by cases, and by grid studies under their names in config/survival."""
-    views = {case.name: case for case in cases}
-    for short, study in grids.items():
-        name = f"survival_{short}"
-        views[name] = CaseView(name, xr.DataTree(study))
-    return BY_TITLE[title].judge(views, {}, survival.FUNCTIONS)
 
 
 # ---- Grids
@@ -101,40 +93,22 @@ def at_fold(found: xr.Dataset, *begins: float, rate: float = -0.1) -> dict[str, 
 def critical(*speeds: float) -> dict[str, xr.Dataset]:
     """Return the lowest speeds with separation at four preloads, rad/s."""
     axes = {"N": [50.0, 100.0, 200.0, 385.0], "horizon": [1000.0], "scan_Omega": [5.0, 24.0]}
-    study = grid(
-        axes, {"precision": 0.1}, critical_speed=np.array(speeds)[:, None], status=["ok"] * 4
-    )
-    return {"speed": study}
+    found = np.array(speeds)[:, None]
+    return {"speed": grid(axes, {"precision": 0.1}, critical_speed=found, status=["ok"] * 4)}
 
 
-def damping(
-    name: str, without: np.ndarray, damped: np.ndarray, status: str = "ok"
-) -> dict[str, xr.Dataset]:
-    """Return growth rates over preload and speed without and with one damper.
-
-    Parameters
-    ----------
-    name : of the damper
-    without, damped : the growth rates, 1/s
-    status : of points without one
-    """
+def damping(name: str, without: np.ndarray, damped: np.ndarray) -> dict[str, xr.Dataset]:
+    """Return growth rates over preload and speed, 1/s, without and with one damper, ``name``."""
     rates = np.stack([without, damped])
-    speeds = np.linspace(10, 50, rates.shape[2])
-    study = grid(
-        {"c_c_p": [0, 1], "N": [50.0, 385.0], "Omega": speeds},
-        growth_rate=rates,
-        status=np.where(np.isnan(rates), status, "ok"),
-    )
-    for damper in ("c", "c_p"):
-        with_it = 0.5 * (damper == name)
-        study = study.assign_coords({damper: ("c_c_p", [0.0, with_it])})
-    return {"damping": study}
+    axes = {"c_c_p": [0, 1], "N": [50.0, 385.0], "Omega": np.linspace(10, 50, rates.shape[2])}
+    study = grid(axes, growth_rate=rates, status=np.full(rates.shape, "ok"))
+    dampers = {each: ("c_c_p", [0.0, 0.5 * (each == name)]) for each in ("c", "c_p")}
+    return {"damping": study.assign_coords(dampers)}
 
 
-def in_plane(damped: np.ndarray, status: str = "ok") -> dict[str, xr.Dataset]:
+def in_plane(damped: np.ndarray) -> dict[str, xr.Dataset]:
     """Return the study of the damper in the disc's plane, for `MANY` cycles."""
-    columns = damped.shape[1]
-    return damping("c_p", MANY[:, :columns], damped, status)
+    return damping("c_p", MANY[:, : damped.shape[1]], damped)
 
 
 GROWING = np.array([[-0.1, 0.1, 0.2], [0.05, 0.1, NAN]])
@@ -167,6 +141,9 @@ FAILED = BELOW_FOLD.assign(grid({}, status="failed"))
 STABLE_RAISED = np.array([[0.1, -0.1, -0.1], [-0.1, -0.1, 0.0]])
 GROWING_RAISED = np.array([[0.0, -0.1, 0.01], [-0.1, -0.1, 0.0]])
 
+WITHOUT_POINTS = onset("qqsqgs", *MORE_STABLE)
+WITHOUT_POINTS["growth"] = WITHOUT_POINTS["growth"].isel(N=[0])
+
 GRID_CASES = [
     (ONSET, onset("qqsqgs", *STABLE_AND_NOT), TRUE),
     (ONSET, onset("qssqgs", *STABLE_AND_NOT), FALSE),  # one from a stable cycle
@@ -176,6 +153,7 @@ GRID_CASES = [
     (ONSET, onset("qqsqss", *MORE_STABLE, fold=19.95), FALSE),  # at the speed, the cycle is beyond
     (ONSET, onset("xqsqgs", *MORE_STABLE), NOT_COMPUTED),
     (ONSET, onset("ssssss", *[0.1] * 6), NOT_COMPUTED),  # no cycle is stable
+    (ONSET, WITHOUT_POINTS, NOT_COMPUTED),  # the map of growth lacks points
     (FOLD, at_fold(BELOW_FOLD, 15.1), TRUE),  # at 15.05, within 15.0 .. 15.1
     (FOLD, at_fold(OFF_FOLD, 15.1), FALSE),  # at 15.17
     (FOLD, at_fold(HALF_FOLD, 15.1), FALSE),  # a stable cycle adjoins one end only
@@ -197,17 +175,6 @@ GRID_CASES = [
     (IN_PLANE, in_plane(MANY[:, :3] - 0.05), NOT_COMPUTED),  # few cycles say nothing
     (IN_PLANE, damping("c", GROWING, GROWING), NOT_COMPUTED),  # of the other damper
 ]
-
-
-@pytest.mark.parametrize(("title", "grids", "verdict"), GRID_CASES)
-def test_conclusions_about_grids(title: str, grids: dict[str, xr.Dataset], verdict: str) -> None:
-    assert judged(title, **grids).verdict == verdict
-
-
-def test_a_map_of_growth_that_lacks_points_decides_nothing() -> None:
-    grids = onset("qqsqgs", *MORE_STABLE)
-    grids["growth"] = grids["growth"].isel(N=[0])
-    assert judged(ONSET, **grids).verdict == NOT_COMPUTED
 
 
 # ---- Cases
@@ -234,10 +201,7 @@ def case(
     before : share of the whole run in stick
     status : of the run
     """
-    contact = "bilateral"
-    if first:
-        contact = "unilateral"
-    p = Parameters(N=N, Omega=20, contact=contact)
+    p = Parameters(N=N, Omega=20, contact="unilateral" if first else "bilateral")
     scalars = {
         "N": N,
         "Omega": 20.0,
@@ -247,27 +211,19 @@ def case(
         "time_reached": 300.0,
         "time_stick": 300 * before,
     }
-
     time = np.arange(0.25, 300, 0.5)
-    stages = np.array([0.01, 0.01, *(widths or [1.0] * 4)])
-    half = stages[(time // 50).astype(int)] / 2
-    history = xr.Dataset(
-        {"w_point_min": ("time", -half), "w_point_max": ("time", half)}, {"time": time}
-    )
-
+    half = np.repeat([0.01, 0.01, *(widths or [1.0] * 4)], 100) / 2
+    ranges = {"w_point_min": ("time", -half), "w_point_max": ("time", half)}
     released = 240 + 60 * stick
-    if intervals is None:
-        intervals = np.full(4000, 0.01)
-    times = 240 + np.cumsum(intervals)
     rows = [(240.0, "slip_to_stick", "stick"), (released, "stick_to_slip", "slip")]
+    times = 240 + np.cumsum(np.full(4000, 0.01) if intervals is None else intervals)
     for separation in times[(times > released) & (times < 299)]:
         rows.append((separation, "separation", "separation"))
         rows.append((separation + 1e-4, "reattachment", "slip"))
-
     groups = {
         "/": xr.Dataset(scalars, attrs={"parameters": p.canonical_json}),
-        "/history": history,
-        "/events": kept_events(sorted(rows), 240.0, 300.0),
+        "/history": xr.Dataset(ranges, {"time": time}),
+        "/events": kept_events(rows, 240.0, 300.0),
     }
     return CaseView(f"case{N:g}{first:g}", xr.DataTree.from_dict(groups))
 
@@ -303,80 +259,46 @@ CASES = [
 ]
 
 
-@pytest.mark.parametrize(("title", "cases", "verdict"), CASES)
-def test_conclusions_about_cases(title: str, cases: Sequence[CaseView], verdict: str) -> None:
-    assert judged(title, *cases).verdict == verdict
-
-
-@pytest.mark.parametrize(("above", "few"), [(1, True), (3, False)])
-def test_a_damper_that_destabilises_a_tenth_of_the_points_does_at_few(
-    above: int, few: bool
-) -> None:
-    rates = MANY - 0.05
-    rates[1, :above] = 0.05
-    found = judged(IN_PLANE, **in_plane(rates))
-    assert found.verdict == TRUE
-    assert ("few points only" in found.notes) is few
+@pytest.mark.parametrize(("title", "data", "verdict"), [*GRID_CASES, *CASES])
+def test_conclusions(title: str, data: Any, verdict: str) -> None:
+    """By grid studies under their names in config/survival, or by cases."""
+    if isinstance(data, dict):
+        views = [CaseView(f"survival_{name}", xr.DataTree(grid)) for name, grid in data.items()]
+    else:
+        views = data
+    known = {view.name: view for view in views}
+    assert BY_TITLE[title].judge(known, {}, survival.FUNCTIONS).verdict == verdict
 
 
 # ---- Models
 
 
-def grids_of_all_models() -> dict[str, xr.DataTree]:
-    """Return one map of growth for all models, with a separation from a stable cycle in one."""
-    coordinates = {}
+def test_each_model_is_judged_by_its_own_data() -> None:
+    """Of one map of growth for all models, with a separation from a stable cycle in one."""
+    axes = {}
     for name, values in zip(CHANGED, zip(*MODELS.values(), strict=True), strict=True):
         numbers = [1e-3 * value if isinstance(value, bool) else value for value in values]
-        coordinates[name] = ("model", numbers)
+        axes[name] = ("model", numbers)
     outcomes = ("qqsqgs", "qqsqgs", "qssqgs", "qqqqgg", "qqsqgs", "qqsqgs", "qqqqgg")
-    parts = {
-        "curves": [curves("fold", 29.0, 29.0)] * len(MODELS),
-        "growth": [growth(*STABLE_AND_NOT)] * len(MODELS),
-        "outcome": [outcome(letters) for letters in outcomes],
-    }
-    nodes = {}
-    for name, studies in parts.items():
-        study = xr.concat(studies, "model", combine_attrs="override")
-        nodes[f"survival_{name}"] = xr.DataTree(study.assign_coords(coordinates))
-    return nodes
-
-
-def cases_of_all_models() -> dict[str, xr.DataTree]:
-    """Return a case of each model, with shares of stick that differ."""
-    shares = (1e-4, 0.01, 1e-4, 6e-4, 0.01, 1e-4, 0.01)
-    nodes = {}
-    for share, (name, model) in zip(shares, MODELS.items(), strict=True):
-        scale, compliant, force, on_surface, stretching = model
-        p = Parameters(
-            N=200,
-            Omega=20,
-            normalization=scale,
-            contact_force=force,
-            contact_compliance="residual" if compliant else 0.0,
-            friction_offset="surface" if on_surface else 0.0,
-            stretching=stretching,
-        )
-        node = case(stick=share).node
-        root = node.to_dataset().assign_attrs(parameters=p.canonical_json)
-        groups = {"/": root, "/events": node["events"].to_dataset()}
-        nodes[f"case {name}"] = xr.DataTree.from_dict(groups)
-    return nodes
-
-
-def test_each_model_is_judged_by_its_own_data() -> None:
-    nodes = {**grids_of_all_models(), **cases_of_all_models()}
-    cases = {name: CaseView(name, node) for name, node in nodes.items()}
-    table = survival.judged(cases)
-    page, *sections = survival.pages_of(table)
+    of_models = [onset(letters, *STABLE_AND_NOT) for letters in outcomes]
+    cases = {}
+    for part in of_models[0]:
+        study = xr.concat([each[part] for each in of_models], "model", combine_attrs="override")
+        name = f"survival_{part}"
+        cases[name] = CaseView(name, xr.DataTree(study.assign_coords(axes)))
+    page, *sections = survival.pages_of(survival.judged(cases))
     rows = page[2].set_index("Conclusion").drop(columns="True if")
     verdicts = dict(zip(BY_TITLE, rows.to_numpy().tolist(), strict=True))
     assert verdicts[ONSET] == [TRUE, TRUE, FALSE, NOT_COMPUTED, TRUE, TRUE, NOT_COMPUTED]
-    assert verdicts[STICK] == [TRUE, FALSE, TRUE, TRUE, FALSE, TRUE, FALSE]
     assert verdicts[CRITICAL] == [NOT_COMPUTED] * 7
+    assert sections[0][0] == ONSET
+    assert sections[0][2]["Found"].iloc[0].startswith("2 of 6 points separate.")
 
-    assert [heading for heading, _, _ in sections] == [*BY_TITLE]
-    told = (
-        "2 of 6 points separate. Of these points, 1 have an unstable cycle, "
-        "1 have none that was found, and 0 have"
-    )
-    assert sections[0][2]["Found"].iloc[0].startswith(told)
+
+def test_a_case_belongs_to_its_own_model() -> None:
+    node = case(stick=5e-4).node
+    law = {"contact_force": "normal", "contact_compliance": "residual"}
+    p = Parameters(N=200, Omega=20, normalization="orthonormal", **law)
+    node.attrs["parameters"] = p.canonical_json
+    known = survival.by_model({"sticks": CaseView("sticks", node)})
+    assert [model for model, cases in known.items() if cases] == ["+ normal contact force"]

@@ -18,7 +18,7 @@ from disc_model.disc.modes import plate_modes
 from tests.damages import DAMAGES, damaged
 from tests.paper import evidence
 from workflow.paper import growth, ledger, paper_tables, section2, section44
-from workflow.paper.measures import CaseView, Range, views
+from workflow.paper.measures import CaseView, views
 from workflow.paper.model import FALSE, NOT_COMPUTED, VERDICTS, Row
 
 pytestmark = [pytest.mark.compiled, pytest.mark.slow]
@@ -245,43 +245,29 @@ def test_the_ledger_names_its_evidence_and_counts_verdicts(judged: pd.DataFrame)
     counted = judged[judged["counts"] != "error in print"]
     assert top["counts"] == {**dict.fromkeys(VERDICTS, 0), **counted["verdict"].value_counts()}
     assert top["errors"] == 4
-    first = next(item["text"] for item in top["stands"] if item["id"] == "F13")
-    assert "54.42 s, where the paper has 54.5 s" in first
 
 
 STRETCHED = [
     # ranges at three quarters of the time and in the end from rest, mm; first separation, s; separations a
     # second after a blow; what is said
-    ((0.2, 0.2), np.nan, 0, "no separation in 300 s, range 0.2 mm in the end"),
-    ((0.2, 0.3), np.nan, 0, "no separation in 300 s, range 0.3 mm in the end (not settled)"),
-    ((4.0, 4.0), 157.57, 40, "separates at 157.6 s, range 4 mm in the end"),
-    ((0.2, 0.2), np.nan, 195, "but after a blow of 5 m/s it goes on separating"),
+    (0.2, 0.3, np.nan, 0.0, "no separation in 300 s, range 0.3 mm in the end (not settled)"),
+    (4.0, 4.0, 157.57, 40.0, "separates at 157.6 s, range 4 mm in the end"),
+    (0.2, 0.2, np.nan, 195.0, "but after a blow of 5 m/s it goes on separating"),
 ]
 
 
-@pytest.mark.parametrize(("ranges", "first", "rate", "said"), STRETCHED)
+@pytest.mark.parametrize(("earlier", "late", "first", "rate", "said"), STRETCHED)
 def test_rows_say_what_stretching_makes_of_their_motions(
-    ranges: tuple[float, float], first: float, rate: float, said: str
+    earlier: float, late: float, first: float, rate: float, said: str
 ) -> None:
-    case = evidence.simulated("F13")["F13"]
-    at_rest = rate if first > 0 else 0.0
-    columns = {
-        "earlier_range": [1e-3 * ranges[0], 1e-3],
-        "range": [1e-3 * ranges[1], 1e-3],
-        "first_separation": [first, np.nan],
-        "separation_rate": [at_rest, rate],
-    }
-    study = xr.Dataset(
-        {name: (("point", "stretching", "begin"), [[each]]) for name, each in columns.items()},
-        {
-            "N": ("point", [385.0]),
-            "Omega": ("point", [15.1]),
-            "stretching": ["clamped"],
-            "begin": ["static", "displaced"],
-        },
-        {"base": "{}"},
-    )
-    known = {"F13": case, "stretching_motions": xr.DataTree(study)}
+    study = evidence.grid(
+        {"point": [0], "stretching": ["clamped"], "begin": ["static", "displaced"]},
+        earlier_range=[[[1e-3 * earlier, 1e-3]]],
+        range=[[[1e-3 * late, 1e-3]]],
+        first_separation=[[[first, np.nan]]],
+        separation_rate=[[[rate if first > 0 else 0.0, rate]]],
+    ).assign_coords(N=("point", [385.0]), Omega=("point", [15.1]))
+    known = {"F13": evidence.simulated("F13")["F13"], "stretching_motions": xr.DataTree(study)}
     table = ledger.check_claims(views(known)).set_index("id")
     assert table.loc["F13", "stretched"].startswith("385 N, 15.1 rad/s: ")
     assert said in table.loc["F13", "stretched"]
@@ -301,8 +287,6 @@ def test_cases_stand_beside_those_by_eq_17() -> None:
     assert rows.loc["F17", "First separation, as published"] == "810.15 s"
     new = rows["First separation, Eq. (17)"]
     assert [new["F17"], new["F04"], new["F20"]] == ["none in 1240 s", "ignored", "failed"]
-    assert rows.loc["F13", "Growth, as published (1/s)"] == "–"
-    assert rows.loc["T2kp18", "P in the end, Eq. (17) (N)"] == "–"
     assert verdicts[2].set_index("place").loc["Sec. 4.1, Fig. 2", "Eq. (17)"] == FALSE
     assert "0 of its 6 cases separate instead of 4" in " ".join(brief[1].split())
 
@@ -314,11 +298,6 @@ def test_tables_1_and_2_are_the_papers() -> None:
     lines = paper_tables.table_2(case)
     assert np.abs(lines["ours_Hz"] - lines["paper_Hz"]).max() < 1
     assert lines.set_index("symbol").loc["f_1", "ours_is"] == "2 f_s − f_Ω"
-
-
-@pytest.mark.parametrize(("low", "high", "text"), [(1.0, 1.0, "1.0"), (1.0, 2.0, "1.0 to 2.0")])
-def test_a_range_of_equal_ends_is_one_number(low: float, high: float, text: str) -> None:
-    assert f"{Range(low, high):.1f}" == text
 
 
 @pytest.mark.parametrize("fault", [{"gvien": {}}, {"when": {"right": "true"}}, {"cases": ["F02"]}])

@@ -3,7 +3,7 @@ coordinates.
 
 The modes are resolved about the material point of contact, over which the slider moves at the rate
 g = f - v_s/r_0; friction follows the slip speed r_0 g, and in stick g = 0.  Contact is rigid or
-compliant, unilateral or bilateral, its force vertical or normal to the bent disc.  Friction is mu_k
+compliant, its force vertical or normal to the bent disc.  Friction is mu_k
 at any slip speed.  Nothing is shared with the engine or with the other references.
 """
 
@@ -36,7 +36,6 @@ class Case(NamedTuple):
     u_0: float
     compliance: float
     normal: bool
-    bilateral: bool
 
 
 class Modes(NamedTuple):
@@ -55,7 +54,6 @@ class Contact(NamedTuple):
     R: float  # normal force, N
     T: float  # friction, N
     slip_speed: float  # m/s
-    surface_speed: float  # m/s
     w: float  # displacement of the disc under the slider, m
     w_rate: float  # m/s
 
@@ -140,7 +138,7 @@ def motion(case, modes, y, side, rates):
     rates[4 * n + 1] = (F - H / r_0) / m
     rates[4 * n + 2] = u_rate
     rates[4 * n + 3] = (V - height) / m
-    return Contact(R, T, r_0 * g, surface, w, w_rate)
+    return Contact(R, T, r_0 * g, w, w_rate)
 
 
 @njit(cache=True)
@@ -162,7 +160,7 @@ def advance(case, modes, y, side, h):
         margin = case.mu_s * now.R - abs(now.T)
     else:
         margin = side * now.slip_speed
-    return y, margin if case.bilateral else min(now.R, margin)
+    return y, min(now.R, margin)
 
 
 @njit(cache=True)
@@ -195,7 +193,7 @@ def change(case, modes, y, side):
         now = motion(case, modes, y, side, rates)
         if not rigid or now.R >= 0.0:
             return side
-    if now.R <= 0.0 and not case.bilateral:
+    if now.R <= 0.0:
         if rigid:
             y[-2] = now.w
             y[-1] = now.w_rate
@@ -214,15 +212,9 @@ def follow(case, modes, y, side, t_end, h, stop):
     """Follow the motion from a phase.
 
     Returns its events as rows of time (s) and ``side`` before and after, behind a row of the start;
-    the range of the slider in the last second (m), and the largest speed of the surface before the
-    first separation (m/s); with ``stop`` no further than to that separation."""
+    with ``stop`` no further than to the first separation."""
     t = 0.0
     found = [(t, side, side)]
-    apart = False
-    low = np.inf
-    high = -np.inf
-    fastest = 0.0
-    rates = np.empty_like(y)
     while t < t_end:
         before = y
         step = h
@@ -242,32 +234,20 @@ def follow(case, modes, y, side, t_end, h, stop):
             side = change(case, modes, y, ended)
             found.append((t + right, ended, side))
             step = right
-            apart = apart or side == SEPARATION
-            if apart and stop:
+            if stop and side == SEPARATION:
                 break
             if right < 1e-9:  # leads away from an event at the start of a phase
                 y = advance(case, modes, y, side, 1e-9)[0]
                 step = right + 1e-9
         t += step
-        now = motion(case, modes, y, side, rates)
-        if not apart:
-            fastest = max(fastest, abs(now.surface_speed))
-        if t > t_end - 1.0:
-            own = case.compliance > 0.0 or side == SEPARATION
-            if own:
-                height = y[-2]
-            else:
-                height = now.w
-            low = min(low, height)
-            high = max(high, height)
-    return found, high - low, fastest
+    return found
 
 
-def case_and_modes(problem, *, bilateral=False):
+def case_and_modes(problem):
     """Numbers of a `taylor.Problem` for the functions of this module."""
     names = ("N", "Omega", "m", "k", "c", "k_p", "c_p", "mu_s", "mu_k", "r_0", "u_0", "C")
     numbers = [float(getattr(problem, name)) for name in names]
-    case = Case(*numbers, normal=problem.normal, bilateral=bilateral)
+    case = Case(*numbers, normal=problem.normal)
     modes = Modes(*(np.asarray(getattr(problem, name), float) for name in Modes._fields))
     return case, modes
 
@@ -280,19 +260,16 @@ def start_of(state):
     return y, sides[state.phase]
 
 
-def first_separation(problem, t_end, h=STEP, *, bilateral=False, stop=True):
-    """Of a `taylor.Problem`, from the static start: its time, or nan, and the last two of `follow`,
-    of which the last over r_0 Omega."""
-    case, modes = case_and_modes(problem, bilateral=bilateral)
-    start, side = start_of(problem.equilibrium())
-    found, width, fastest = follow(case, modes, start, side, float(t_end), h, stop)
-    times = [time for time, _, after in found if after == SEPARATION]
-    return min(times, default=np.nan), width, fastest / (case.r_0 * case.Omega)
+def first_separation(problem, t_end):
+    """Time (s) of that of a `taylor.Problem`, from the static start, or nan."""
+    start = start_of(problem.equilibrium())
+    found = follow(*case_and_modes(problem), *start, float(t_end), STEP, True)
+    return min((time for time, _, after in found if after == SEPARATION), default=np.nan)
 
 
 def switches(problem, start, duration, h=STEP):
     """Times since a `stored.State`, s, and kinds of the events."""
-    found, *_ = follow(*case_and_modes(problem), *start_of(start), float(duration), h, False)
+    found = follow(*case_and_modes(problem), *start_of(start), float(duration), h, False)
     times = []
     kinds = []
     for time, before, after in found[1:]:

@@ -121,6 +121,7 @@ class SteadySliding:
         z = np.zeros(self.size + 5)
         z[self.size :] = [self.N, friction, self.N, friction, self.Omega]
         forces = np.arange(self.size, self.size + 5)
+        sizes = []
         for _ in range(50):
             by_x, by_z = self.jacobian(x, z)
             left = np.hstack([by_x[:, free], by_z[:, forces]])
@@ -129,9 +130,13 @@ class SteadySliding:
             rows = 1 / np.maximum(abs(left).max(axis=1), STEP)
             left = rows[:, None] * left
             columns = 1 / np.maximum(abs(left).max(axis=0), STEP)
-            step = columns * np.linalg.lstsq(left * columns, rows * right, rcond=None)[0]
+            scaled = np.linalg.lstsq(left * columns, rows * right, rcond=None)[0]
+            step = columns * scaled
             x[free] += step[: free.sum()]
             z[forces] += step[free.sum() :]
+            sizes.append(abs(scaled).max())
+            if sizes[-1] < 1e-10 * sizes[0]:  # the next one would be far below rounding
+                break
         return x, z
 
     def eigenvalues(self):

@@ -80,15 +80,6 @@ class Stretching:
                         across[at] += np.sign(one) * by_z.imag / 2
         return along, across
 
-    def energy(self, a, b):
-        """V4, J."""
-        z = self.waves(a, b)
-        total = LONG(0)
-        for pairs, G in self.parts:
-            S = np.array([z[p] * z[q] for p, q in pairs])
-            total += (S.conj() @ G @ S).real
-        return total
-
     def rest(self, N, s, w2):
         """a of the static start: Newton's method in steps of N, derivatives by differences of a
         cubic, which are exact."""
@@ -569,22 +560,6 @@ class Reference:
         if self.phase == "stick":
             return LONG(0)
         return self.f - self.q.surface_speed(self.beta) / self.q.r_0
-
-    def energy(self):
-        """Energy of disc, slider, springs and contact, J, without that of the preload's ramp."""
-        q = self.q
-        w, velocity, _ = self.disc()
-        held = self.phase != "separation" and q.rigid
-        u, rate = (w, velocity) if held else (self.u, self.v)
-        disc = (self.alpha**2 + self.beta**2 + q.w2 * (self.a**2 + self.b**2)).sum() / 2
-        if q.stretching:
-            disc += q.stretching.energy(self.a, self.b)
-        vertical = q.m * rate**2 / 2 + q.k * (u - q.u_0) ** 2 / 2 + q.N * u
-        inplane = q.r_0**2 * (q.m * self.f**2 + q.k_p * self.psi**2) / 2
-        contact = LONG(0)
-        if not q.rigid and self.phase != "separation":
-            contact = (w - u) ** 2 / q.C / 2
-        return disc + vertical + inplane + contact
 
     def forces(self, phase, direction=0):
         """R and T if the phase were this one."""

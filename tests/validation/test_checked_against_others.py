@@ -2,7 +2,7 @@
 form."""
 
 import re
-from math import acos, atan, cos, exp, log, pi, sin, sqrt
+from math import acos, atan, cos, exp, pi, sin, sqrt
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +13,7 @@ from scipy.optimize import brentq
 
 from disc_model import Disc, Parameters, continue_cycle, plate_modes, simulate, steady_sliding
 from disc_model.simulation.states import State, static_start
+from tests.references import block
 
 pytestmark = [
     pytest.mark.compiled,
@@ -46,14 +47,9 @@ def edge(holds, low, high):
     return low
 
 
-def times(p, t_end, start=None, kinds=None):
-    """Of events, s; of some kinds."""
-    events = simulate(p, t_end, tol=1e-14, initial_state=start).events
-    return [
-        float(t)
-        for t, kind in zip(events["time"], events["kind"], strict=True)
-        if kinds is None or kind in kinds
-    ]
+def times(p, t_end, start=None):
+    """Of events, s."""
+    return simulate(p, t_end, tol=1e-14, initial_state=start).events["time"].tolist()
 
 
 # Each function gives what is exact and what the package computes, by the labels of the page; None
@@ -95,15 +91,13 @@ def shoe(p):
 
 def belt(p):
     """The last slip, stick and period of a second."""
-    rate = sqrt(p.k_p / p.m)
-    slack = (p.mu_s - p.mu_k) * p.N / (p.k_p * p.r_0)
-    slip = 2 * (pi - atan(rate * slack / p.Omega)) / rate
-    stick = 2 * slack / p.Omega
-    *_, begin, end, again = times(p, 1.0, kinds={"stick_to_slip", "slip_to_stick"})[-4:]
-    lengths = sorted([end - begin, again - end], reverse=slip > stick)
-    exact = {"slip, s": slip, "stick, s": stick, "period, s": slip + stick}
+    cycle = block.undamped_stick_slip(p)
+    *_, begin, end, again = times(p, 1.0)[-4:]
+    slip, stick = sorted([end - begin, again - end], reverse=cycle.slip > cycle.stick)
     return {
-        name: (exact[name], own) for name, own in zip(exact, [*lengths, sum(lengths)], strict=True)
+        "slip, s": (cycle.slip, slip),
+        "stick, s": (cycle.stick, stick),
+        "period, s": (cycle.period, slip + stick),
     }
 
 
@@ -320,16 +314,9 @@ def falling_friction(p):
     return {name: pair for name, *pair in zip(names, exact, own, strict=True)}
 
 
-def friction(p, speed):
-    """Coefficient of exponential friction at a slip speed, m/s."""
-    falling = (p.mu_s - p.mu_k) * exp(-p.friction_decay * speed)
-    return p.mu_k + falling + p.viscous_friction * speed
-
-
 def hopf(p):
     """Speed, m/s, at which steady sliding becomes stable: where the growth rate vanishes."""
-    exact = log((p.mu_s - p.mu_k) * p.N * p.friction_decay / (p.c_p + p.viscous_friction * p.N))
-    exact /= p.friction_decay
+    exact = block.hopf_speed(p)
 
     def growth(speed):
         return steady_sliding(p.replace(Omega=speed / p.r_0)).growth_rate
@@ -345,7 +332,7 @@ def least_speed(p, stretch):
     def rates(_, y):
         x, v = y
         growth = speed - v
-        return [growth, (p.k_p * x + p.c_p * growth - p.N * friction(p, v)) / p.m]
+        return [growth, (p.k_p * x + p.c_p * growth - p.N * block.friction_coefficient(p, v)) / p.m]
 
     def slowest(_, y):
         return rates(0, y)[1]
@@ -371,7 +358,7 @@ def stribeck(p):
     least slip speed after a release is zero."""
     speed = 0.22
     fast = p.replace(Omega=speed / p.r_0)
-    displacement = p.N * friction(p, speed) / p.k_p
+    displacement = p.N * block.friction_coefficient(p, speed) / p.k_p
     own = p.r_0 * steady_sliding(fast).psi
 
     def stops(Omega):
@@ -417,31 +404,6 @@ COMPUTED = {
 }  # fmt: skip
 
 
-OTHERS = {
-    "E2": [{"N": 7, "mu_s": 0.15, "mu_k": 0.15, "k_p": 9e3}, {"N": 21, "k_p": 2e4, "m": 0.3}, {"r_0": 0.06, "m": 5}],
-    "E3": [{"N": 200, "Omega": 20}, {"N": 50, "Omega": 3, "m": 0.3, "k_p": 5e3}, {"mu_s": 0.5, "mu_k": 0.1}],
-    "E4": [{"N": 200}, {"k_p": 5e3, "m": 0.2}, {"mu_s": 0.6, "mu_k": 0.3, "r_0": 0.08}],
-    "E5": [
-        {"disc": Disc(diameters=[3], omega=[2774], amplitude=[1.2])},
-        {"disc": Disc(diameters=[1], omega=[1500], amplitude=[5])},
-        {"disc": Disc(diameters=[4], omega=[4383], amplitude=[0.7]), "m": 0.5},
-    ],
-    "E6": [{"c": 0.5}, {"c": 0.3, "disc": Disc(diameters=[2], omega=[1823.881], amplitude=[1.4])}, {"c": 0.2}],
-    "E7": [
-        {"N": 80, "disc": Disc(diameters=[0], omega=[900], amplitude=[1.2])},
-        {"N": 20, "m": 0.5},
-        {"m": 0.4, "disc": Disc(diameters=[0], omega=[1300], amplitude=[0.8])},
-    ],
-    "E8": [{"N": 3}, {"m": 0.5, "contact_compliance": 1e-7}, {"N": 40, "contact_compliance": 3e-6}],
-    "E9": [
-        {"Omega": 1, "friction_decay": 2}, {"m": 0.5, "k_p": 2, "friction_decay": 5},
-        {"N": 2, "mu_s": 0.8, "mu_k": 0.3, "Omega": 3},
-    ],
-    "E9b": [{"viscous_friction": 0.0}, {"k_p": 6000, "N": 9.5}, {"mu_s": 0.58, "m": 0.6}],
-}  # fmt: skip
-"""Other parameters than the page's, where exact numbers are known; any plate is compared in ``tests/disc``."""
-
-
 def says(text, value):
     """Whether a number of the page is the value, rounded to as many digits, up to noise in the
     last."""
@@ -466,16 +428,6 @@ def test_the_page_says_what_is_computed(name, p, rows):
         assert difference < float(allowed), (label, difference)
         # nor is more allowed than needed, down to the rounding of eigenvalues
         assert float(allowed) <= max(10 * difference, 1e-8), (label, difference)
-
-
-@pytest.mark.parametrize(
-    ("name", "changes"), [(name, changes) for name in OTHERS for changes in OTHERS[name]]
-)
-def test_other_parameters_are_as_exact_as_the_page_says(name, changes):
-    p, rows = next((p, rows) for case, p, rows in tables() if case == name)
-    found = COMPUTED[name](p.replace(**changes))
-    for (label, *_, allowed), (exact, own) in zip(rows, found.values(), strict=True):
-        assert abs(own / exact - 1) < float(allowed), label
 
 
 def test_the_page_has_every_case():

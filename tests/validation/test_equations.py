@@ -67,22 +67,6 @@ def test_motion_of_each_phase(phase, direction, tol):
         assert result.statistics[name] < accuracy
 
 
-@pytest.mark.parametrize(("phase", "direction"), MOTIONS)
-def test_states_pass_the_engine_unchanged(phase, direction):
-    start = lively(phase, direction)
-    _, state = engine_state(P, start)
-    back = read_state(engine_case(P), state)
-    close(
-        vars(back),
-        Printed(P, start).described(0.0, Printed(P, start).y),
-        1e-12,
-        ("a", "b", "alpha", "beta"),
-    )
-    assert back.phase == phase
-    assert back.direction == direction
-    assert (back.u, back.u_velocity) == pytest.approx((start.u, start.u_velocity), rel=1e-12)
-
-
 def test_impact():
     start = lively("separation")
     printed = Printed(P, start)

@@ -75,7 +75,7 @@ def compare_sliding(p):
 def test_first_separations_are_those_of_fixed_steps(N, Omega):
     """To 0.1 %; without the couple none of the first two separates so early."""
     p = Parameters(N=N, Omega=Omega, **ORTHONORMAL)
-    wanted = first_separation(taylor.problem_of(p), 80)[0]
+    wanted = first_separation(taylor.problem_of(p), 80)
     assert simulate(p, 80, stop_at="first_separation").first_separation == pytest.approx(
         wanted, rel=1e-3
     )

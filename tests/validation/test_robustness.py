@@ -189,28 +189,19 @@ def beginning(what: str) -> tuple[Parameters, State]:
 
 @pytest.mark.parametrize("what", FIRST)
 def test_first_switches(what: str) -> None:
-    _, changes, kinds = FIRST[what]
+    kinds = FIRST[what][2]
     p, start = beginning(what)
     result = simulate(p, 0.05, initial_state=start)
-    expected = Status.OK
-    if p.Omega == 0 and result.final_state.phase == "stick":
-        expected = Status.AT_REST
-    assert result.status is expected
+    rests = p.Omega == 0 and result.final_state.phase == "stick"
+    assert result.status is (Status.AT_REST if rests else Status.OK)
     events = result.events
     assert list(events.kind[: len(kinds) or None]) == kinds
     if what in AT_ONCE:
         assert events.time[0] == 0
     elif not kinds:
         assert np.abs(result.final_state.alpha).max() < 1e-12
-    elif "pulled by" in what:
-        longest = 1e-9
-        if changes["psi"] > 1e-6:
-            longest = 2e-4
-        first, second = events.time[:2]
-        assert 0 <= second - first < longest
     elif "tension" in what:
         assert events.time[0] == events.time[1]
-        assert list(events.phase[:2]) == ["separation", "separation"]
 
 
 # without a pull the slip before contact is lost lasts for 1e-11 s, within the rounding of what
@@ -250,19 +241,6 @@ def test_no_preload_slips_at_once_and_never_separates() -> None:
 
 # ------------------------------------------------------------------------------------ where a step
 # or a run ends
-
-
-@pytest.mark.parametrize("late", [1e-15, 1e-12, 1e-9])
-def test_a_run_cut_just_after_its_events_has_the_same_events(late: float) -> None:
-    """The gap was closed to within rounding, and a touchdown and a separation were seen at once."""
-    p, state = beginning("a kick throws the slider up twice")
-    whole = simulate(p, 0.05, initial_state=state).events
-    kinds = []
-    for end in [*(np.unique(whole.time) + late), 0.05]:
-        run = simulate(p, end, initial_state=state)
-        kinds += list(run.events.kind)
-        state = run.final_state
-    assert kinds == list(whole.kind)
 
 
 @pytest.mark.parametrize("tol", [1e-8, 1e-13])
