@@ -52,7 +52,7 @@ class StudyError(ParameterError):
 # ---- Files
 
 
-class _Loader(yaml.SafeLoader):
+class _Loader(yaml.CSafeLoader):
     """Refuses a key that is given twice, of which YAML would take the last value."""
 
     def construct_mapping(self, node: Any, deep: bool = False) -> Any:

@@ -12,7 +12,6 @@ from disc_model.analysis.classify import closure
 from disc_model.data.variables import Outcome
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Start
-from disc_model.stability.follower import FIRST_LEG
 from disc_model.studies.quantity import STATIC, Motion, Row, found, quantity
 from disc_model.units import Seconds, Size, Tolerance
 
@@ -20,6 +19,8 @@ if TYPE_CHECKING:
     from disc_model.simulation.result import Result
     from disc_model.simulation.states import State
     from disc_model.stability.attractors import Arrival
+
+LATE = 5.0  # s, of motion from which samples and a period are taken: dozens of cycles
 
 
 def _settled(
@@ -97,7 +98,7 @@ def _at_switches(
 
     last = legs[-1]
     state = reached.end(last)
-    record = simulate(case, state.time + FIRST_LEG, tol=tol, initial_state=state).raise_for_status()
+    record = simulate(case, state.time + LATE, tol=tol, initial_state=state).raise_for_status()
     every = [*legs, record]
     firsts = [run.first_separation for run in every if not np.isnan(run.first_separation)]
     if reached.calm is None and reached.near is not None:  # the attractor is known exactly
@@ -131,7 +132,7 @@ def _motion_reached(case: Parameters, reached: Arrival, run: Result, tol: float)
         kind = "separation" if cycle.separations else "stick_to_slip"
         n = cycle.separations or cycle.releases
         times = run.events["time"][run.events["kind"] == kind]
-        intervals = np.diff(times[times > run.final_state.time - FIRST_LEG])
+        intervals = np.diff(times[times > run.final_state.time - LATE])
         rest = closure(intervals, n) if n < len(intervals) else np.nan
         motion = MotionKind(reached.near.kind, n, rest)
     elif reached.calm is None and reached.settled:
