@@ -188,6 +188,7 @@ def case(
     stick: float = 0.0,
     before: float = 0.1,
     status: str = "ok",
+    last: float = 1.0,
 ) -> CaseView:
     """Return a run of 300 s.
 
@@ -200,6 +201,7 @@ def case(
     stick : share of these 60 s in stick
     before : share of the whole run in stick
     status : of the run
+    last : share of that width in the last 20 s
     """
     p = Parameters(N=N, Omega=20, contact="unilateral" if first else "bilateral")
     scalars = {
@@ -213,6 +215,7 @@ def case(
     }
     time = np.arange(0.25, 300, 0.5)
     half = np.repeat([0.01, 0.01, *(widths or [1.0] * 4)], 100) / 2
+    half[-40:] *= last
     ranges = {"w_point_min": ("time", -half), "w_point_max": ("time", half)}
     released = 240 + 60 * stick
     rows = [(240.0, "slip_to_stick", "stick"), (released, "stick_to_slip", "slip")]
@@ -248,6 +251,7 @@ CASES = [
     (SMALLER, (case(1, 1, 1, 1.3), BILATERAL), NOT_COMPUTED),  # it still grows
     (SMALLER, (case(1, 1, 2.9, 3.5), BILATERAL), NOT_COMPUTED),  # it grows through the other
     (SMALLER, (case(1, 1, 4, 4), BILATERAL), FALSE),
+    (SMALLER, (case(1, 1, 4, 4, last=0.6), BILATERAL), NOT_COMPUTED),  # smaller over equal times
     (SMALLER, (case(1, 1, 1, 1), UNTIL_PARADOX), TRUE),  # bilateral contact grew until the end
     (STICK, (case(stick=5e-4),), TRUE),
     (STICK, (case(stick=5e-4, status="failed"),), NOT_COMPUTED),
