@@ -11,7 +11,7 @@ validation/test_[!m]* engine/test_saltation engine/test_roots engine/test_stick_
 stability/test_block stability/test_sliding stability/test_return_map stability/test_separating_cycles
 stability/test_slipping_cycle stability/test_frequencies stability/test_linear_motion
 stability/continuation/toy_maps stability/continuation/test_course stability/continuation/test_borders
-disc/test_plate disc/test_flexibility disc/test_finite_elements disc/test_thin_plate
+disc/test_plate disc/test_flexibility disc/test_finite_elements
 simulation/test_moving_surface simulation/test_pad simulation/test_cuts simulation/test_deflection simulation/test_start
 studies/test_against_simulation workflow/test_determinism workflow/test_reruns workflow/test_faults
 """

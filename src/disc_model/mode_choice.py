@@ -17,7 +17,6 @@ from pydantic import Field
 from disc_model.arrays import Array
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import coupled_frequencies, mode_arrays
-from disc_model.disc.thin_plate import shortest_wave
 from disc_model.display import Summarised, counted
 from disc_model.errors import DiscModelError
 from disc_model.parameters import Parameters
@@ -78,11 +77,6 @@ class ModeChoice(Summarised):
         if self.quantity != FREQUENCIES:
             yield "at", f"{p.Omega:g} rad/s, {p.N:g} N; other speeds may need more modes"
         yield "error", f"{self.error:.2g}, relative; {self.tolerance:g} was asked for"
-        shortest = shortest_wave(p)
-        if shortest is not None:
-            waves = f"waves of {shortest.length:.3g} thicknesses"
-            excess = f"{100 * shortest.excess:.2g} % too high"
-            yield "highest mode", f"{waves}, frequency of a thin plate {excess}"
 
 
 class UndecidedModes(DiscModelError):

@@ -23,10 +23,9 @@ from typing import Any
 import numpy as np
 
 from disc_model.arrays import Array, Indices
-from disc_model.errors import Fault, ModeError, ParameterError, as_text
+from disc_model.errors import ModeError, as_text, require
 from disc_model.parameters import SURFACE, Disc, Parameters
 
-SAME_AMPLITUDE = 0.05  # of a mode's largest motion: how far its shape may be from its amplitude
 POINTS_PER_ROOT = 6  # grid points per asymptotic root spacing pi/(1 - a/b) when brackets are sought
 WIDEST = 1e11  # greatest ratio of squared frequencies of disc and slider: their error is 1e-5, compared with 60 digits
 
@@ -81,16 +80,22 @@ def tangential_amplitudes(p: Parameters) -> Array:
     if p.disc is not None and p.friction_offset == SURFACE:
         return np.array(p.disc.tangential) * pad_factors(mode_arrays(p).diameters, p.contact_arc)
     modes = mode_arrays(p)
-    height = p.h / 2 if p.friction_offset == SURFACE else float(p.friction_offset)
-    return -height / p.r_0 * modes.diameters * modes.psi
+    height = p.friction_offset
+    if height == SURFACE:
+        height = p.h / 2
+    return -float(height) / p.r_0 * modes.diameters * modes.psi
 
 
 def mode_shapes(p: Parameters, r: Array) -> Array:
     """Amplitudes of the modes at radii r (m, shape (k,)), in kg^-1/2, (n_modes, k); at r_0 those of
-    `modes_at_point`. For a table they are splines through its shapes and amplitudes. Raises
-    ParameterError if it has no shapes."""
+    `modes_at_point`. For a table they are splines through its shapes. Raises ParameterError if it
+    has none."""
     if p.disc is not None:
-        return _spline(*_given_shapes(p.disc, p.r_0), r)
+        from scipy.interpolate import make_interp_spline  # few callers need it
+
+        radial_range(p)
+        degree = min(3, len(p.disc.radii) - 1)
+        return np.asarray(make_interp_spline(p.disc.radii, p.disc.shapes, k=degree, axis=1)(r))
     if p.n_diameters < 0:  # a rigid disc
         return np.zeros((0, len(r)))
     shapes = _shapes(p.a / p.b, p.nu, p.n_diameters, p.n_circles)
@@ -116,34 +121,9 @@ def radial_range(p: Parameters) -> tuple[float, float]:
     disc has none."""
     if p.disc is None:
         return p.a, p.b
-    radii = _given_shapes(p.disc, p.r_0)[0]
-    return float(radii[0]), float(radii[-1])
-
-
-def _given_shapes(disc: Disc, r_0: float) -> tuple[Array, Array]:
-    """Radii, and the shapes of a table at these; at the slider the amplitudes that agree with them, within a
-    share of the mode's largest motion, replace them."""
-    if not disc.radii:
-        rule = "must have shapes at radii: only amplitudes under the slider are known"
-        raise ParameterError(Fault(("disc",), "", rule))
-    radii = np.array([r_0, *disc.radii])
-    amplitude = np.array(disc.amplitude)
-    shapes = np.column_stack([amplitude, disc.shapes])
-    if radii[1] <= r_0 <= radii[-1]:
-        by_shapes = _spline(radii[1:], shapes[:, 1:], radii[:1])[:, 0]
-        apart = np.abs(by_shapes - amplitude) > SAME_AMPLITUDE * np.abs(shapes).max(axis=1)
-        shapes[apart, 0] = by_shapes[apart]
-    # nm, by which two radii are the same
-    _, first = np.unique(np.round(radii, 9), return_index=True)
-    return radii[first], shapes[:, first]
-
-
-def _spline(radii: Array, shapes: Array, r: Array) -> Array:
-    """Shapes (n_modes, k) at radii (k,), interpolated at others (m,): (n_modes, m)."""
-    from scipy.interpolate import make_interp_spline  # few callers need it
-
-    degree = min(3, len(radii) - 1)
-    return np.asarray(make_interp_spline(radii, shapes, k=degree, axis=1)(r))
+    rule = "must have shapes: only amplitudes under the slider are known"
+    require((p.disc.radii, "disc.radii", p.disc.radii, rule))
+    return p.disc.radii[0], p.disc.radii[-1]
 
 
 def coupled_frequencies(p: Parameters, compliance: float = 0.0) -> Array:
@@ -194,8 +174,11 @@ def modal_damping(p: Parameters) -> Array:
     """Damping 2 xi omega of every mode, 1/s, in the order of `plate_modes`; (D*/D) omega^2 if no
     ratio xi is given."""
     omega = mode_arrays(p).omega
-    ratio = p.damping_ratio if p.disc is None else np.array(p.disc.damping_ratio)
-    return p.D_star / p.D * omega**2 if ratio is None else 2 * ratio * omega
+    if p.disc is not None:
+        return 2 * np.array(p.disc.damping_ratio) * omega
+    if p.damping_ratio is not None:
+        return 2 * p.damping_ratio * omega
+    return p.D_star / p.D * omega**2
 
 
 def damping_ratios(p: Parameters) -> Array:
@@ -229,9 +212,7 @@ def _modes(plate: tuple[Any, ...], orthonormal: bool) -> Modes:
     reuses them."""
     a, b, r_0, h, E, nu, rho, n_diameters, n_circles = plate
     if n_diameters < 0:  # a rigid disc
-        no_numbers = np.zeros(0, np.int64)
-        no_values = np.zeros(0)
-        return Modes(no_numbers, no_numbers.copy(), no_values, no_values.copy())
+        return Modes(*np.zeros((2, 0), np.int64), *np.zeros((2, 0)))
     shapes = _shapes(a / b, nu, n_diameters, n_circles)
     stiffness = E * h**3 / 12 / (1 - nu**2)
     # numpy's floats overflow without an exception, and the outcome is checked
@@ -355,32 +336,23 @@ def _roots(inner: float, nu: float, n_diameters: int, n_circles: int) -> Array:
 
     step = np.pi / (1 - inner) / POINTS_PER_ROOT
     l = np.arange(n_diameters + 1)
-    start = 0.02 + 0.3 * np.maximum(
-        l - 1.0, 0.0
-    )  # below the first roots, where the determinant is well conditioned
-    by_diameters: list[list[tuple[float, float]]] = [[] for _ in l]
-    chunk = POINTS_PER_ROOT * (n_circles + 1) + 8
-    missing = l
-    for first in range(0, 200 * chunk, chunk):
-        grid = start[missing, None] + step * np.arange(first, first + chunk + 1)
-        orders = np.broadcast_to(missing[:, None], grid.shape)
-        signs = np.sign(_determinant(orders.ravel(), grid.ravel(), inner, nu)).reshape(grid.shape)
+    # below the first roots, where the determinant is well conditioned
+    start = 0.02 + 0.3 * np.maximum(l - 1.0, 0.0)
+    first = POINTS_PER_ROOT * (n_circles + 1) + 8
+    for count in first * 2 ** np.arange(9):
+        grid = start[:, None] + step * np.arange(count + 1)
+        of_grid = np.broadcast_to(l[:, None], grid.shape).ravel()
+        signs = np.sign(_determinant(of_grid, grid.ravel(), inner, nu)).reshape(grid.shape)
         # a zero on the grid belongs to the interval that ends there
-        before = signs[:, :-1]
-        changes = (signs[:, 1:] != before) & (before != 0)
-        for row, i in np.argwhere(changes):
-            bracket = (grid[row, i], grid[row, i + 1])
-            by_diameters[missing[row]].append(bracket)
-        missing = np.array(
-            [order for order in missing if len(by_diameters[order]) <= n_circles], dtype=np.int64
-        )
-        if missing.size == 0:
+        changes = (signs[:, 1:] != signs[:, :-1]) & (signs[:, :-1] != 0)
+        lacking = l[changes.sum(axis=1) <= n_circles]
+        if lacking.size == 0:
             break
     else:
-        raise ModeError(
-            f"plate modes: no {n_circles + 1} roots for {missing[0]} nodal diameters at a/b={inner:g}"
-        )
-    brackets = np.array([of_l[: n_circles + 1] for of_l in by_diameters]).transpose(2, 1, 0)
+        roots = f"no {n_circles + 1} roots for {lacking[0]} nodal diameters"
+        raise ModeError(f"plate modes: {roots} at a/b={inner:g}")
+    places = np.argsort(~changes, axis=1, kind="stable")[:, : n_circles + 1]
+    brackets = [np.take_along_axis(grid, places + end, axis=1).T for end in (0, 1)]
     orders = np.tile(l, (n_circles + 1, 1))
 
     def determinant(lam: Array, orders: Indices) -> Array:
