@@ -213,7 +213,9 @@ def strip(ax: Axes, flag: DataArray) -> None:
     x, place = np.repeat(sides, 2)[1:-1], ax.get_xaxis_transform()
     for word, look in looks_of(said[said != ""]).items():
         here = np.repeat(said == word, 2)
-        paint = look.paint if look.hatch else {**look.paint, "ec": GREY}  # white ones are seen
+        paint = look.paint
+        if not look.hatch:
+            paint["ec"] = GREY  # white ones are seen
         ax.fill_between(x, 0, 1, here, transform=place, zorder=0, lw=0.4, **paint)
 
 
@@ -237,8 +239,7 @@ def number_map(ax: Axes, x: DataArray, missing: DataArray | None = None, **colou
 
 def missing_text(x: DataArray) -> str:
     """What a legend says of points without a value."""
-    why = x.attrs.get("missing", "")
-    return f"no value: {why}" if why else "no value"
+    return f"no value: {x.attrs.get('missing', '')}".removesuffix(": ")
 
 
 def lone_cells(flag: DataArray) -> DataArray:
@@ -249,6 +250,14 @@ def lone_cells(flag: DataArray) -> DataArray:
         before, after = flag.shift({dim: 1}), flag.shift({dim: -1})
         alone |= (before == after) & (flag != before)
     return alone & flag.notnull() & ~flag.isin(["", "excluded"])
+
+
+def around(area: DataArray) -> DataArray:
+    """An area of a map with the cells beside it, without parts that are one cell wide."""
+    from scipy.ndimage import binary_dilation, binary_opening
+
+    wide = binary_opening(np.pad(area, 1, mode="edge"), np.ones((2, 2)))[1:-1, 1:-1]
+    return area.copy(data=binary_dilation(wide, np.ones((3, 3))))
 
 
 def unresolved(ax: Axes, flag: DataArray) -> None:
@@ -268,7 +277,9 @@ def growth_colours(rate: DataArray) -> Options:
 def usual_colours(x: DataArray) -> Options:
     """Colours of other numbers, around zero if they have both signs."""
     values = finite_of(x)
-    low, high = (values.min(), values.max()) if values.size else (0.1, 1.0)
+    low, high = 0.1, 1.0
+    if values.size:
+        low, high = values.min(), values.max()
     if low < 0 < high:
         high = max(-low, high)
         return {"cmap": cm.vik, "norm": Normalize(-high, high)}
@@ -285,7 +296,9 @@ def colours_of(x: DataArray) -> Options:
     """Colours of any numbers; none of words."""
     if is_words(x):
         return {}
-    return growth_colours(x) if is_rate(x) else usual_colours(x)
+    if is_rate(x):
+        return growth_colours(x)
+    return usual_colours(x)
 
 
 def is_rate(x: DataArray) -> bool:
@@ -310,7 +323,7 @@ def sign_changes(ax: Axes, rate: DataArray, name: str) -> None:
     if min(rate.shape) > 1 and rate.min() < 0 < rate.max():
         up, across = (rate[str(dim)] for dim in rate.dims)
         ax.contour(across, up, rate, [0], colors=BLACK, linewidths=0.8)
-        ax.plot([], [], color=BLACK, lw=0.8, label=name)
+        ax.plot([], [], color=BLACK, label=name)
 
 
 def frame(ax: Axes, plane: DataArray) -> None:
@@ -338,7 +351,9 @@ def scale(axis: Any, x: DataArray) -> None:
 
 def once(ax: Axes, text: str) -> str:
     """A label, or none if something on the axes has it already."""
-    return "_nolegend_" if text in ax.get_legend_handles_labels()[1] else text
+    if text in ax.get_legend_handles_labels()[1]:
+        return "_nolegend_"
+    return text
 
 
 def wished(look: Mapping[str, Any], **usual: Any) -> Options:
@@ -459,7 +474,7 @@ def rate_axis(ax: Axes, linear: float = LINEAR_RATE) -> None:
     if np.abs(ax.dataLim.intervaly).max() > LARGEST_RATE / LINEAR_RATE * linear:
         ax.set_yscale("symlog", linthresh=linear, subs=range(2, 10))
         ax.yaxis.set_major_formatter("{x:g}")
-    ax.axhline(0, color=GREY, lw=0.5, zorder=0)
+    ax.axhline(0, color=GREY, zorder=0)
 
 
 # ---- Shares

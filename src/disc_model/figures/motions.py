@@ -150,7 +150,7 @@ def _branch(ax: Axes, x: DataArray, y: DataArray, rate: DataArray, name: str, co
 
     rate : growth rate of disturbances, 0 where stability changes
     """
-    ax.plot(x, y, color=colour, lw=0.7, label=once(ax, f"{name}: unstable"))
+    ax.plot(x, y, color=colour, label=once(ax, f"{name}: unstable"))
     thicken(ax, x, y, stable_between(rate.values), f"{name}: stable", color=colour)
 
 
@@ -365,6 +365,6 @@ def phase_map(study: Dataset) -> Figure:
         text = f"{number:g} separations,\nslope {piece['map_slope'].mean():.2f}"
         near.annotate(text, (at[0], after[0]), (4, -2), va="top", **NOTE)
     for ax in axes.values():
-        ax.axline((1, 1), slope=1, color=GREY, lw=0.6, zorder=0)
+        ax.axline((1, 1), slope=1, color=GREY, zorder=0)
         ax.set(xlabel="Phase of a release", ylabel="Phase of the next one")
     return figure

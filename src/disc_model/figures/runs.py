@@ -76,7 +76,7 @@ def draw_history(axes: Sequence[Axes], samples: Dataset, variables: Sequence[str
         colour = OF_VARIABLE.get(name.removesuffix("_velocity"), BLACK)
         if name in samples:
             x = samples[name]
-            ax.plot(time, x, color=colour, lw=0.8)
+            ax.plot(time, x, color=colour)
         elif f"{name}_max" in samples:
             x = samples[f"{name}_max"]
             draw_range(ax, samples, name, color=colour)
@@ -272,7 +272,7 @@ def draw_spectrum(ax: Axes, samples: Dataset, variable: str, highest: float | No
             verticalalignment="bottom",
             fontsize=6,
         )
-    ax.semilogy(*amplitude_spectrum(*signal), color=BLACK, lw=0.7)
+    ax.semilogy(*amplitude_spectrum(*signal), color=BLACK)
     x.attrs["long_name"] += ", amplitude"
     ax.set(
         xlim=(0, end),

@@ -8,7 +8,7 @@ import inspect
 from collections.abc import Callable, Mapping, Sequence
 from typing import Annotated, Any, ClassVar, Literal, NamedTuple, cast, get_type_hints
 
-from pydantic import AfterValidator, BeforeValidator, Field, create_model
+from pydantic import AfterValidator, Field, create_model
 
 from disc_model.errors import Fault, as_text, raise_faults, suggestion, violations
 from disc_model.figures.looks import Options
@@ -47,7 +47,9 @@ class Recorded(NamedTuple):
 
     def broken(self, window: Any) -> str:
         """The rule if a window, or a section, breaks it, else ""."""
-        return "" if isinstance(window, Window) and self.holds(window) else self.rule
+        if isinstance(window, Window) and self.holds(window):
+            return ""
+        return self.rule
 
 
 class Shows(NamedTuple):
@@ -92,27 +94,10 @@ def case_figure(windows: Mapping[str, Any] = NOTHING) -> Shows:
 Case = Annotated[Any, str]
 Cases = Annotated[Any, tuple[str, ...]]
 
-IN_FULL = Recorded("must be a window without an envelope", lambda w: w.envelope is None)
-IN_TIME = Recorded(
-    "must be a window without an envelope, of 1.1 s or more",
-    lambda w: w.envelope is None and w.stop - w.start >= 1.1,
-)
+IN_FULL = Recorded("must be a window without an envelope", lambda w: not w.envelope)
 Samples = Annotated[str, IN_FULL]
-InTime = Annotated[str, IN_TIME]
-Ranges = Annotated[
-    str,
-    Recorded(
-        "must be a window that has an envelope, and two envelopes or more",
-        lambda w: w.envelope is not None and w.count >= 2 * w.envelope,
-    ),
-]
-Either = Annotated[
-    str,
-    Recorded(
-        "must be a window of two samples, or two envelopes, or more",
-        lambda w: w.count >= 2 * (w.envelope or 1),
-    ),
-]
+Ranges = Annotated[str, Recorded("must be a window that has an envelope", lambda w: w.envelope)]
+Either = Annotated[str, Recorded("must be a window")]
 
 
 # ---- Figures
@@ -130,12 +115,14 @@ def known_units(units: dict[str, str]) -> dict[str, str]:
     return units
 
 
-def _joined(caption: Any) -> Any:
-    return " ".join(map(str, caption)) if isinstance(caption, list) else caption
+def _joined(caption: str | list[str]) -> str:
+    if isinstance(caption, str):
+        return caption
+    return " ".join(caption)
 
 
-def _by_key(names: Any) -> Any:
-    return {key_of(x): name for x, name in names.items()} if isinstance(names, dict) else names
+def _by_key(names: dict[Any, Any]) -> Any:
+    return {key_of(x): name for x, name in names.items()}
 
 
 class Kind(Strict):
@@ -154,7 +141,7 @@ class Kind(Strict):
 
     kind: str
     title: str = ""
-    caption: Annotated[str, BeforeValidator(_joined, json_schema_input_type=str | list[str])] = ""
+    caption: Annotated[str | list[str], AfterValidator(_joined)] = ""
     section: str = ""
     units: Annotated[dict[str, str], AfterValidator(known_units)] = Field({})
     width: Literal["column", "page"] | None = None
@@ -179,7 +166,7 @@ class Plot(Kind):
     study: str = ""
     overlays: dict[str, str] = Field({})
     at: Annotated[dict[str, Finite | str], Unit(UNITS)] = Field({})
-    names: Annotated[dict[str, str], BeforeValidator(_by_key)] = Field({})
+    names: Annotated[dict[Any, str], AfterValidator(_by_key)] = Field({})
 
     @property
     def axes(self) -> dict[str, str]:
@@ -282,11 +269,14 @@ class CasePlot(Kind):
         none = f"no such case (known: {', '.join(cases) or 'none'})"
         faults: list[Any] = []
         for case in self.cases:
-            faults += violations((case in cases, "case", case, none))
-            recorded: Any = cases.get(case)
-            for key, name, wanted in windows if recorded is not None else ():
-                lacking = f"is not recorded by case {case}{suggestion(name, recorded)}"
-                rule = wanted.broken(recorded[name]) if name in recorded else lacking
+            recorded = cases.get(case)
+            if recorded is None:
+                faults += violations((case in cases, "case", case, none))
+                continue
+            for key, name, wanted in windows:
+                rule = f"is not recorded by case {case}{suggestion(name, recorded)}"
+                if name in recorded:
+                    rule = wanted.broken(recorded[name])
                 faults += violations((not rule, key, name, rule))
         return faults
 
