@@ -51,20 +51,19 @@ class Modes:
             return float(np.sum((self.psi / self.omega) ** 2))
 
 
-def mode_arrays(p: Parameters, normalization: str = "") -> Modes:
-    """The modes of `plate_modes` as read-only arrays, the same at every call; `normalization`
-    replaces the case's."""
-    at_point = modes_at_point(p, normalization)
+def mode_arrays(p: Parameters) -> Modes:
+    """The modes of `plate_modes` as read-only arrays, the same at every call."""
+    at_point = modes_at_point(p)
     if p.contact_arc == 0:
         return at_point
     return _under_pad(at_point, p.contact_arc)
 
 
-def modes_at_point(p: Parameters, normalization: str = "") -> Modes:
+def modes_at_point(p: Parameters) -> Modes:
     """As `mode_arrays`, with the amplitudes of a single point at r_0, whatever the slider's arc."""
     if p.disc is not None:
         return modes_of_table(p.disc)
-    return _modes(_PLATE(p), (normalization or p.normalization) == "orthonormal")
+    return _modes(_PLATE(p), p.normalization == "orthonormal")
 
 
 def pad_factors(diameters: Indices | Array, arc: float) -> Array:

@@ -14,7 +14,6 @@ from disc_model.data.variables import stated_in
 from disc_model.errors import Fault, ParameterError, suggestion
 from disc_model.figures import modes, motions, runs, studies
 from disc_model.figures.draw import COLUMN, PAGE, finish, panels, styled
-from disc_model.figures.looks import Options
 from disc_model.figures.schema import NORM, CasePlot, Kind, Plot, kinds_in
 from disc_model.figures.shown import key_of, shown, shown_case
 from disc_model.parameters import Parameters
@@ -122,8 +121,10 @@ def _prepared(plot: Plot, data: Dataset) -> Dataset:
 def save(figure: Figure, path: str | Path, title: str = "") -> None:
     """Write a figure with its title; equal figures give equal bytes. Further files have the layout of
     the first."""
-    options: Options = {"pil_kwargs": {"compress_level": 1}}  # half the time, 1.1 of the size
-    metadata: Options = {"Software": None}
+    options: dict[str, Any] = {
+        "pil_kwargs": {"compress_level": 1}
+    }  # half the time, 1.1 of the size
+    metadata: dict[str, Any] = {"Software": None}
     if Path(path).suffix == ".pdf":
         options, metadata = {}, {"CreationDate": None}
     if title:

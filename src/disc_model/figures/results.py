@@ -45,7 +45,8 @@ USUAL = (
     "psi",
     "kind",
 )
-"""Variables of sweeps that are drawn unless another one is asked for: the first that there is."""
+"""Variables of sweeps that are drawn unless another one is asked for: the first that there is, or else
+the first of others."""
 CLASSES = "attractor_class"  # dimension along which shares of starts add up to one
 ROW = 1.4  # height of a row of histories, inch
 LETTERS = 12.0  # per inch, of a legend in matplotlib's own style
@@ -310,12 +311,9 @@ def chosen(study: Dataset, variable: str, x: str) -> str:
 
 def usual_of(study: Dataset) -> str:
     """The variable that is drawn unless another one is asked for, "" if none varies."""
-    varying = {str(name): x for name, x in study.items() if x.ndim}
-    for name in USUAL:
-        if name in varying:
-            return name
-    kinds = {name: x.dtype.kind for name, x in varying.items() if "flag_meanings" not in x.attrs}
-    return [*(name for name, kind in kinds.items() if kind in "fiu"), *varying, ""][0]
+    others = study.drop_vars(["status", "message"], errors="ignore").data_vars
+    varying = [name for name in (*USUAL, *others, "status") if name in study and study[name].ndim]
+    return str([*varying, ""][0])
 
 
 def selection(dims: Iterable[Any]) -> str:

@@ -9,7 +9,6 @@ import numpy as np
 from cmcrameri import cm
 from matplotlib.axes import Axes
 from matplotlib.patches import Circle
-from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 from xarray import DataArray, Dataset
 
@@ -149,7 +148,7 @@ def draw_exponents(ax: Axes, found: Any, **look: Any) -> None:
     colour = ax.lines[-1].get_color()
     ax.errorbar(x, finite, found.errors, fmt="none", capsize=3, ecolor=colour)
     ax.axhline(0, color=GREY, lw=0.6, zorder=0)
-    ax.xaxis.set_major_locator(MaxNLocator(integer=True))
+    ax.locator_params("x", integer=True)
 
 
 def draw_critical(ax: Axes, found: Any, **look: Any) -> None:

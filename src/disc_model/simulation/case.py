@@ -61,8 +61,9 @@ class Interval(Strict):
     def _ordered(self) -> Self:
         values = dict(self)
         start = values["start"]
-        end = "end" if "end" in values else "stop"
-        require((start < values[end], "start", start, f"must be < {end}={as_text(values[end])}"))
+        [name] = {"end", "stop"} & values.keys()
+        rule = f"must be < {name}={as_text(values[name])}"
+        require((start < values[name], "start", start, rule))
         return self
 
 
@@ -89,8 +90,10 @@ class Span(Interval):
     def ends(self, start: float, t_end: float) -> tuple[float, float]:
         """Absolute times of its ends, s, for a run from ``start`` to ``t_end``, even if they are
         not within the run."""
-        first = self.start if self.last is None else max(t_end - self.last, start)
-        return first, self.stop if self.stop < math.inf else self._end(first, t_end)
+        first = self.start
+        if self.last is not None:
+            first = max(t_end - self.last, start)
+        return first, min(self.stop, self._end(first, t_end))
 
     def _end(self, first: float, t_end: float) -> float:
         return t_end
