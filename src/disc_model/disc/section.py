@@ -208,8 +208,9 @@ def _matrices(basis: Any, l: int, material: Material) -> tuple[Any, Any]:
     elasticity[:3, :3] += lame
     angle = math.pi * (1 + (l == 0))  # of cos^2(l theta)
 
-    def strain(u: Any, w: Any, v: Any, r: Any) -> Array:
-        """Three normal strains, then the doubled shear strains; u, w, v are u_r, u_z, u_theta."""
+    def strain(r: Any, *shape: Any) -> Array:
+        """Three normal strains, then the doubled shear strains, of u_r, u_z and u_theta."""
+        u, w, v = shape
         normal = (u.grad[0], w.grad[1], (u + l * v) / r)
         in_section = u.grad[1] + w.grad[0]
         in_plane = v.grad[0] - (l * u + v) / r
@@ -218,7 +219,7 @@ def _matrices(basis: Any, l: int, material: Material) -> tuple[Any, Any]:
 
     def energy(*shapes: Any) -> Any:
         r = shapes[-1].x[0]
-        both = strain(*shapes[:3], r), strain(*shapes[3:6], r)
+        both = strain(r, *shapes[:3]), strain(r, *shapes[3:6])
         return r * np.einsum("i...,ij,j...->...", both[0], elasticity, both[1])
 
     def inertia(*shapes: Any) -> Any:

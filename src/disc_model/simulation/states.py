@@ -442,9 +442,11 @@ def _checked_gap(case: EngineCase, source: State, state: EngineState, *, is_star
     row = case.point[0]
     w = float(row.dot(state.disc))
     gap = source.u - w
-    place, room, free = "at", SAME_HEIGHT, case.model.has_compliance
+    place, room = "at", SAME_HEIGHT
+    free: object = case.model.has_compliance
     if source.phase == "separation":
-        place, room, free = "at or above", INSIDE, gap > 0 or not is_start
+        place, room = "at or above", INSIDE
+        free = gap > 0 or not is_start
     if gap == 0 or free:
         return gap
     size = float(np.abs(row).dot(np.abs(state.disc))) + abs(source.u_velocity) * case.model.unit
@@ -525,7 +527,10 @@ def _check(state: State, case: EngineCase) -> None:
     ahead = state.phase != "slip" or off * state.direction >= -rounding
     signs = f"must have the sign of direction={state.direction}, less the surface's {surface:.9g}"
     others = "must be psi of plate_modes: the state belongs to other modes"
+    digit = math.ulp(state.time)  # of which the clock's compensation is a part
+    rule = "must be less than the last digit of the time"
     require(
+        (abs(state.time_low) <= digit, path + "time_low", state.time_low, rule),
         (held, path + "f", state.f, f"must be {surface:.9g} in stick, the disc's surface's"),
         (ahead, path + "f", state.f, signs),
         (_fits(state, case.amplitudes), path + "mode_amplitudes", state.mode_amplitudes, others),
