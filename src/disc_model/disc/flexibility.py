@@ -19,18 +19,15 @@ from disc_model.disc.plate import Array, mode_arrays, pad_factors
 from disc_model.errors import Fault, ModeError, ParameterError, as_text, raise_faults, require
 from disc_model.parameters import RESIDUAL, Parameters, foreign_case
 
-HIGHEST_HARMONIC = (
-    4096  # beyond it the plate is as if unbounded, unless the slider runs on its very edge
-)
+HIGHEST_HARMONIC = 4096
+"""Beyond it the plate is as if unbounded, unless the slider runs on its very edge."""
 ROUNDING = (1e-13, 1e-16)
 """Relative error of the harmonics' closed forms, whose functions become nearly equal at large l, and
 its growth with the inverse cube of the distance from the clamped edge over the radius."""
 _TAIL_POINTS = 1000  # midpoints of the integral over harmonics beyond the highest
 _TAIL_ERROR = 0.01  # of that integral, relative: at most 0.3 % for any arc
-MODAL_SUM = (
-    60,
-    20,
-)  # diameters and circles of the sum that stands for all modes if these are ``as_published``
+MODAL_SUM = (60, 20)
+"""Diameters and circles of the sum that stands for all modes if these are ``as_published``."""
 
 
 @dataclass(frozen=True)

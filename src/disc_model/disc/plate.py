@@ -286,17 +286,15 @@ def _shapes(inner: float, nu: float, n_diameters: int, n_circles: int) -> _Shape
     lam = _roots(inner, nu, n_diameters, n_circles).ravel()
     matrix, exponents = _columns(l, lam, inner, nu)
     if not np.all(np.isfinite(matrix)):
-        rule = (
-            f"must not be so near 0 for {n_diameters} nodal diameters: the modes cannot be computed"
-        )
-        raise ModeError(f"plate modes: a/b={inner:g} and 1 - a/b={1 - inner:g} {rule}")
+        ratios = f"a/b={inner:g} and 1 - a/b={1 - inner:g}"
+        rule = f"must not be so near 0 for {n_diameters} nodal diameters"
+        raise ModeError(f"plate modes: {ratios} {rule}: the modes cannot be computed")
     matrix = np.moveaxis(matrix, -1, 0)
     rows = np.max(np.abs(matrix), axis=2, keepdims=True)
     coefficients = np.linalg.svd(matrix / rows)[2][:, -1, :].T
     # a null vector has no sign of its own; at the free edge no mode vanishes
-    coefficients = coefficients * np.sign(
-        _evaluate(l, lam, coefficients, exponents, np.array([1.0]))[:, 0]
-    )
+    [at_edge] = _evaluate(l, lam, coefficients, exponents, np.array([1.0])).T
+    coefficients = coefficients * np.sign(at_edge)
     # nodes that integrate R^2 r to rounding: several per half wave, more for edge layers of many
     # diameters
     needed = int(40 + lam[-1] * (1 - inner) + 1.2 * n_diameters)
@@ -308,17 +306,20 @@ def _shapes(inner: float, nu: float, n_diameters: int, n_circles: int) -> _Shape
     values = _evaluate(l, lam, coefficients, exponents, nodes)
     circles = np.repeat(np.arange(n_circles + 1), n_diameters + 1)
     for shape, diameters, expected in zip(values, l, circles, strict=True):
-        clear = shape[
-            np.abs(shape) > 1e-7 * np.max(np.abs(shape))
-        ]  # without rounding errors near the clamp
-        counted = np.count_nonzero(clear[1:] * clear[:-1] < 0)
+        counted = _nodal_circles(shape)
         if counted != expected:
             root = f"root {expected} for {diameters} nodal diameters at a/b={inner:g}, nu={nu:g}"
-            raise ModeError(
-                f"plate modes: {root} has {counted} nodal circles; one was missed or doubled"
-            )
+            rule = f"has {counted} nodal circles; one was missed or doubled"
+            raise ModeError(f"plate modes: {root} {rule}")
     norm = 2 * np.pi * values**2 @ (weights * nodes)
     return _Shapes(inner, l, lam, coefficients, exponents, norm)
+
+
+def _nodal_circles(shape: Array) -> int:
+    """The number of changes of sign of a radial shape, but for rounding errors near the clamp."""
+    sizes = np.abs(shape)
+    clear = shape[sizes > 1e-7 * np.max(sizes)]
+    return int(np.count_nonzero(clear[1:] * clear[:-1] < 0))
 
 
 def _evaluate(l: Indices, lam: Array, coefficients: Array, exponents: Array, x: Array) -> Array:

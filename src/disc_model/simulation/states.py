@@ -38,9 +38,8 @@ MODAL = ("a", "b", "alpha", "beta")
 """Names of the variables of a state with one value a mode."""
 PLAIN = ("time", "time_low", "psi", "f", "u", "u_velocity", "surface_turn")
 """Names of its scalars."""
-SAME_HEIGHT = (
-    1e-9  # relative to the disc's deflection: far above rounding, far below any intended difference
-)
+# relative to the disc's deflection: far above rounding, far below any intended difference
+SAME_HEIGHT = 1e-9
 INSIDE = 1e-5  # likewise, by which errors of the loosest series may put a slider into the disc
 SAME_SPEED = 1e-9  # relative to the drive's: a slip by less against its direction is rounding too
 
@@ -256,13 +255,9 @@ def deflection(case: Parameters, states: Any, r: Radii, theta: Angles) -> Any:
     if isinstance(states, State):
         given = [states]
     fit = isinstance(given, Iterable) and all(_fits(state, modes.psi) for state in given)
+    rule = f"must be within {as_text(low)} and {as_text(high)}"
     require(
-        (
-            np.all((low <= r) & (r <= high)),
-            "r",
-            r.tolist(),
-            f"must be within {as_text(low)} and {as_text(high)}",
-        ),
+        (np.all((low <= r) & (r <= high)), "r", r.tolist(), rule),
         (fit, "states", states, f"must be states of the case, with {len(modes.psi)} modes"),
     )
     shapes = mode_shapes(case, r).T
@@ -295,16 +290,14 @@ class EngineCase:
     kind: tuple[Any, ...]  # `flags_of` the model: they determine the types of all arguments
     start: EngineState  # the static start
     amplitudes: np.ndarray  # `State.mode_amplitudes`
-    present: (
-        np.ndarray
-    )  # indices in a, b, alpha, beta of all modes of what exists: no b, beta without nodal diameter
+    # indices in a, b, alpha, beta of all modes of what exists: no b, beta without nodal diameter
+    present: np.ndarray
     places: np.ndarray  # their indices in `EngineState.disc`
     # matrix from there to u, u' (without the slope's share), slope B and v_s / r_0 under the slider
     point: np.ndarray
     surface: np.ndarray  # shape (n_modes,), from beta to v_s / r_0
-    idle: defaultdict[
-        int, list[Workspace]
-    ]  # workspaces that no run uses at present, by the order of their series
+    # workspaces that no run uses at present, by the order of their series
+    idle: defaultdict[int, list[Workspace]]
 
 
 @lru_cache(maxsize=32)  # with their workspaces tens of kilobytes each, megabytes with 1000 modes
@@ -450,9 +443,8 @@ def _checked_gap(case: EngineCase, source: State, state: EngineState, *, is_star
     if gap == 0 or free:
         return gap
     size = float(np.abs(row).dot(np.abs(state.disc))) + abs(source.u_velocity) * case.model.unit
-    rule = (
-        f"must be {place} the disc under the slider, {w:.9g}, in {source.phase}: change a with it"
-    )
+    where = f"{place} the disc under the slider, {w:.9g}, in {source.phase}"
+    rule = f"must be {where}: change a with it"
     require((abs(gap) <= room * size, "initial_state.u", source.u, rule))
     return gap
 
