@@ -204,7 +204,8 @@ def _functions(l: NDArray[np.int64], r: float, scale: Array) -> Array:
     third of l = 0, and the fourth of l = 0 and 1, have ln r besides, since they would equal another
     one."""
     n = l[:, None] * np.array([1.0, 1.0, -1.0, -1.0]) + np.array([0.0, 2.0, 0.0, 2.0])
-    one, none = np.ones_like(n), np.zeros_like(n)
+    one = np.ones_like(n)
+    none = np.zeros_like(n)
     powers = np.stack([one, n, n * (n - 1), n * (n - 1) * (n - 2)], axis=1)
     by_exponent = np.stack([none, one, 2 * n - 1, 3 * n**2 - 6 * n + 2], axis=1)
     logarithmic = l[:, None] < np.array([0, 0, 1, 2])

@@ -50,7 +50,9 @@ MOST_MARKS = 12  # on one line of several
 NO_LOOKS: dict[str, Look] = {}
 SIDES = ("right", "left")  # of lines, for their names
 NOTE: Options = {"textcoords": "offset points", "fontsize": 7}
-LOWER, UPPER = 0.015, 0.985  # places of crosses, share of a panel
+# places of crosses, share of a panel
+LOWER = 0.015
+UPPER = 0.985
 BELOW_ANY = "−∞, below any number"
 
 
@@ -209,8 +211,10 @@ def strip(ax: Axes, flag: DataArray) -> None:
 
     flag : words, shape (x,)
     """
-    said, sides = words(flag), edges(flag[str(flag.dims[0])])
-    x, place = np.repeat(sides, 2)[1:-1], ax.get_xaxis_transform()
+    said = words(flag)
+    sides = edges(flag[str(flag.dims[0])])
+    x = np.repeat(sides, 2)[1:-1]
+    place = ax.get_xaxis_transform()
     for word, look in looks_of(said[said != ""]).items():
         here = np.repeat(said == word, 2)
         paint = look.paint
@@ -247,7 +251,8 @@ def lone_cells(flag: DataArray) -> DataArray:
     cells."""
     alone = xr.zeros_like(flag, dtype=bool)
     for dim in flag.dims:
-        before, after = flag.shift({dim: 1}), flag.shift({dim: -1})
+        before = flag.shift({dim: 1})
+        after = flag.shift({dim: -1})
         alone |= (before == after) & (flag != before)
     return alone & flag.notnull() & ~flag.isin(["", "excluded"])
 
@@ -268,7 +273,8 @@ def unresolved(ax: Axes, flag: DataArray) -> None:
 def growth_colours(rate: DataArray) -> Options:
     """Colours of growth rates: neutral at zero, and nearly logarithmic beyond a thirtieth of the
     end of the scale."""
-    sizes, end = np.abs(finite_of(rate)), LARGEST_RATE
+    sizes = np.abs(finite_of(rate))
+    end = LARGEST_RATE
     if sizes.size and np.median(sizes) > LARGEST_RATE:
         end = float(np.quantile(sizes, COMMON))
     return {"cmap": cm.vik, "norm": AsinhNorm(end / 30, -end, end)}
@@ -277,9 +283,11 @@ def growth_colours(rate: DataArray) -> Options:
 def usual_colours(x: DataArray) -> Options:
     """Colours of other numbers, around zero if they have both signs."""
     values = finite_of(x)
-    low, high = 0.1, 1.0
+    low = 0.1
+    high = 1.0
     if values.size:
-        low, high = values.min(), values.max()
+        low = values.min()
+        high = values.max()
     if low < 0 < high:
         high = max(-low, high)
         return {"cmap": cm.vik, "norm": Normalize(-high, high)}
@@ -448,7 +456,8 @@ def mark_points(ax: Axes, x: Any, y: Any, name: str, **look: Any) -> None:
 
     x : of the first dimensions of `y`, or as these
     """
-    across, heights = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
+    across = np.asarray(x, dtype=float)
+    heights = np.asarray(y, dtype=float)
     places = across.reshape(across.shape + (1,) * (heights.ndim - across.ndim))
     known = np.isfinite(heights)
     if known.any():
@@ -486,7 +495,8 @@ def shares(ax: Axes, x: DataArray, fractions: DataArray, classes: str) -> None:
     fractions : shape (x, classes)
     classes : the dimension of words
     """
-    sides, bottom = edges(x), np.zeros(x.size)
+    sides = edges(x)
+    bottom = np.zeros(x.size)
     looks = looks_of(fractions[classes].values)
     for word in fractions[classes].values:
         share = fractions.sel({classes: word}).values

@@ -126,7 +126,8 @@ def save(figure: Figure, path: str | Path, title: str = "") -> None:
     }  # half the time, 1.1 of the size
     metadata: dict[str, Any] = {"Software": None}
     if Path(path).suffix == ".pdf":
-        options, metadata = {}, {"CreationDate": None}
+        options = {}
+        metadata = {"CreationDate": None}
     if title:
         metadata["Title"] = title
     with styled():

@@ -129,7 +129,8 @@ def draw_campbell(
     modes = modes[["frequency", "rate"]].assign(diameters=numbers.rename(Omega="x"))
     _modes(above, modes, "frequency")
     above.set_ylim(0, highest)
-    speeds, rate = data["Omega"], data["growth_rate"]
+    speeds = data["Omega"]
+    rate = data["growth_rate"]
     far = rate.notnull() & (data.get("near_motion", 1) == 0)
     why = "the motion is not near this cycle"
     look: Options = {"color": BLACK, "marker": "o", "ms": 1.8, "missing": ""}

@@ -213,7 +213,8 @@ def spectrum(
     given = Wishes(highest=highest, units=units)
     samples = window_of(shown_case(case, given.units), name, variable=variable)
     ax = axes_for(ax)
-    before, limits = len(ax.lines), ax.viewLim.frozen()
+    before = len(ax.lines)
+    limits = ax.viewLim.frozen()
     with refused("window", name):
         runs.draw_spectrum(ax, samples, variable, given.highest)
     for line in ax.lines[before:]:

@@ -189,7 +189,8 @@ def draw_sections(axes: Sequence[Axes], case: DataTree, name: str = "poincare") 
     Light: before the first separation, and on the way to the final motion, if its start is known.
     """
     samples = window_of(case, name)
-    first, final = number_of(case, "first_separation"), final_since(case, samples)
+    first = number_of(case, "first_separation")
+    final = final_since(case, samples)
     conditions = [
         samples["time"] < first,
         samples["time"] < final,

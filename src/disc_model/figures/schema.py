@@ -180,7 +180,8 @@ class Plot(Kind):
         dims : values along the dimensions of the study
         variables : the same of each of its variables, with the dimensions of its own
         """
-        own, name = dims, getattr(self, "variable", None)
+        own = dims
+        name = getattr(self, "variable", None)
         if name is not None:
             rule = f"unknown variable{suggestion(name, variables)}"
             faults = violations((name in variables, "variable", name, rule))
@@ -289,9 +290,13 @@ def kind_of_function(function: Function, name: str) -> type[Kind]:
     hints = get_type_hints(function, include_extras=True)
     first, *parameters = inspect.signature(function).parameters.values()
     fields: Options = {"kind": (Literal[name], name)}
-    roles, rules, further = {}, {}, []
+    roles = {}
+    rules = {}
+    further = []
     for parameter in parameters:
-        key, hint, default = parameter.name, hints[parameter.name], parameter.default
+        key = parameter.name
+        hint = hints[parameter.name]
+        default = parameter.default
         mark = next(iter(getattr(hint, "__metadata__", ())), None)
         if isinstance(mark, Role):
             roles[key] = mark
@@ -299,15 +304,20 @@ def kind_of_function(function: Function, name: str) -> type[Kind]:
         if isinstance(mark, Recorded):
             rules[key] = mark
         elif mark in (str, tuple[str, ...]):
-            hint, default = mark, default or mark()
+            hint = mark
+            default = default or mark()
             further.append(key)
         fields[key] = (hint, ... if default is parameter.empty else default)
     base: Any = Plot if first.name == "study" else CasePlot
     doc = inspect.getdoc(function)
     created = create_model(name, __base__=base, __doc__=doc, __module__=__name__, **fields)
     model = cast(Any, created)
-    model.function, model.shows = staticmethod(function), vars(function)["shows"]
-    model.keys, model.roles, model.rules, model.further = [*fields][1:], roles, rules, further
+    model.function = staticmethod(function)
+    model.shows = vars(function)["shows"]
+    model.keys = [*fields][1:]
+    model.roles = roles
+    model.rules = rules
+    model.further = further
     return cast(type[Kind], model)
 
 

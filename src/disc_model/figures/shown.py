@@ -76,12 +76,15 @@ def _shown(x: DataArray, units: Mapping[str, tuple[str, float]]) -> DataArray:
     if x.dtype.kind not in "fiu":
         return x.assign_attrs(attributes)
     known = parameter_of(x)
-    unit, factor = readable(x.attrs.get("units", "")), 1.0
+    unit = readable(x.attrs.get("units", ""))
+    factor = 1.0
     if known:
         attributes["parameter"] = known
-        unit, factor = SHOWN[known].unit, SHOWN[known].factor
+        unit = SHOWN[known].unit
+        factor = SHOWN[known].factor
     elif str(x.name).endswith(("range", "period")) and unit in THOUSANDTHS:
-        unit, factor = THOUSANDTHS[unit], 1e3
+        unit = THOUSANDTHS[unit]
+        factor = 1e3
     unit, factor = units.get(known, (unit, factor))
     attributes.update(units=unit, factor=factor)
     values = x.values
@@ -117,7 +120,8 @@ def si_unit(name: str) -> str:
 
 def readable(units: str) -> str:
     """A unit of CF as text: ``N m-2`` is ``N/m²``, and ``1`` is nothing."""
-    above, below = [], []
+    above = []
+    below = []
     for part in units.replace("2", "²").replace("3", "³").split():
         name, _, power = part.partition("-")
         if power:

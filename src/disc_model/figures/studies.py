@@ -108,7 +108,8 @@ def heat_map(study: Dataset, variable: str, x: str, y: str, by: str = NORM) -> F
 def draw_map(ax: Axes, data: Dataset, variable: str, **colours: Any) -> Any:
     """Draw classes, or numbers in colours, over two dimensions (up, across), with circles where they
     are in doubt; returns the mesh of numbers, for a bar."""
-    plane, doubt = data[variable], in_doubt(data, variable)
+    plane = data[variable]
+    doubt = in_doubt(data, variable)
     if is_words(plane):
         class_map(ax, plane)
         unresolved(ax, plane)
@@ -155,7 +156,8 @@ def draw_lines(
 
     joined : whether lines join the points, which are not paired values
     """
-    array, doubt = data[variable], in_doubt(data, variable)
+    array = data[variable]
+    doubt = in_doubt(data, variable)
     by = next((str(dim) for dim in array.dims if dim != x), "")
     usual: Options = {"doubt": doubt.attrs["long_name"]}
     if not joined:
@@ -164,7 +166,8 @@ def draw_lines(
         chosen = [each for each in array.coords.values() if each.ndim == 0 and parameter_of(each)]
         usual["label"] = ", ".join(map(value_text, chosen))
     elif by not in array.coords or array.sizes[by] > MOST_VALUES:
-        array, doubt = flattened(array, x), flattened(doubt, x)
+        array = flattened(array, x)
+        doubt = flattened(doubt, x)
         usual |= {"marker": ".", "linestyle": "", "missing": ""}
     of_cycle = variable in OF_CYCLES and data.attrs.get("function") != "steady_sliding"
     if of_cycle:
@@ -213,11 +216,13 @@ reason."""
 def in_doubt(data: Dataset, variable: str) -> DataArray:
     """Where a value is not known to be final, with the reason as `long_name`, "" if there is none."""
     x = data[variable]
-    unsure, why = xr.zeros_like(x, dtype=bool), ""
+    unsure = xr.zeros_like(x, dtype=bool)
+    why = ""
     for name, (ends, doubts, reason) in DOUBTS.items():
         known = name in data and name != variable and {*data[name].dims} <= {*x.dims}
         if known and not why and variable.endswith(ends):
-            unsure, why = unsure | data[name].astype(str).isin(doubts), reason
+            unsure = unsure | data[name].astype(str).isin(doubts)
+            why = reason
     return unsure.transpose(*x.dims).assign_attrs(long_name=why)
 
 
@@ -319,10 +324,13 @@ def draw_mark(ax: Axes, name: str, mark: Mark, x: DataArray, y: DataArray) -> No
     said: Options = {"mfc": look.face, "mec": BLACK, "clip_on": False}
     ax.plot(*at, shape, ms=size, zorder=20 - size, label=f"paper: {look.label}", **said)
     if at[1] < y.quantile(0.1):
-        up, end = 6, "bottom"
-    right, side = 6, "left"
+        up = 6
+        end = "bottom"
+    right = 6
+    side = "left"
     if at[0] > x.mean():
-        right, side = -6, "right"
+        right = -6
+        side = "right"
     ax.annotate(name, at, (right, up), ha=side, va=end, bbox=BOX, zorder=20, **NOTE)
 
 
@@ -352,7 +360,8 @@ def sliding_outcome(
     looks = {}
     for fate, outcomes in FATES.items():
         for word, sign, hatch in (("stable", stable, STABLE.hatch), ("unstable", ~stable, "")):
-            here, said = outcome.isin(outcomes) & sign, f"sliding {word}, {fate}"
+            here = outcome.isin(outcomes) & sign
+            said = f"sliding {word}, {fate}"
             both = both.where(~here, said)
             shares = [f"{100 * float(part.mean()):.0f} %" for _, part in each_value(here, by)]
             name = f"{said}: {', '.join(shares)}"
@@ -389,9 +398,11 @@ def critical_speed(
     """
     if "horizon" in study.dims:
         study = study.sel(horizon=study["horizon"].max())
-    speeds, loads = study["scan_Omega"], study["N"]
+    speeds = study["scan_Omega"]
+    loads = study["N"]
     figure, axes = row(1 if hysteresis is None else 2, 3.0)
-    first, last = axes[0], axes[-1]
+    first = axes[0]
+    last = axes[-1]
     if cycle is not None:
         plane = cycle.sel(Omega=slice(*speeds[[0, -1]].values)).transpose("N", "Omega", ...)
         behind(first, plane, curves)
@@ -454,7 +465,9 @@ def onsets(ax: Axes, study: Dataset) -> None:
 def sweeps(ax: Axes, sweep: Dataset) -> None:
     """Speeds at which separation begins on the way up and ends on the way down, at each preload; hollow
     where a stay in contact ended before the motion had settled, so that the speed is in doubt."""
-    along, up, down = sweep["sweep_Omega"], sweep["onset_speed"], sweep["offset_speed"]
+    along = sweep["sweep_Omega"]
+    up = sweep["onset_speed"]
+    down = sweep["offset_speed"]
     kept = sweep["separation_rate"] == 0
     unsure = kept & (sweep["sweep_settled"] != "settled")
     last_kept = along.where(kept.sel(direction="down")).max("sweep_Omega")
@@ -527,7 +540,8 @@ def escape(study: Dataset, starts: str = "perturbation_u", by: str = "N") -> Fig
         known = part["first_separation"][(part["status"] == "ok").values]
         times = np.sort(known.dropna(starts).values)
         shares = np.arange(times.size + 1) / max(1, known.size)
-        colour, name = LINE_COLOURS[i % 4], f"{title}: {counted(known.notnull())} starts"
+        colour = LINE_COLOURS[i % 4]
+        name = f"{title}: {counted(known.notnull())} starts"
         look: Options = {"color": colour, "label": name, "where": "post"}
         ax.step([0, *times, horizon], [*shares, shares[-1]], DASHES[i % 3], **look)
         end = horizon * (1.02 + 0.02 * i)
@@ -551,7 +565,8 @@ def late_range(study: Dataset, thickness: Positive) -> Figure:
     thickness : of the disc, m: plate theory is not linear for larger ranges
     """
     height = study["u_max"].assign_attrs(long_name="Range of the slider's height")
-    late, limits = height.copy(data=height - study["u_min"]), lost_contact(study)
+    late = height.copy(data=height - study["u_min"])
+    limits = lost_contact(study)
     apart = late.where(study["outcome"] == "separation").sel(contact="unilateral")
     lost = f"R, at which contact is lost; separating: {extent(apart / limits)} R"
     data = study.assign(late=late, unsure=~study["outcome"].isin(SURE))
@@ -608,7 +623,9 @@ def range_law(study: Dataset, set_apart: dict[str, Finite] = NOTHING) -> Figure:
     """
     data = study.stack(motion=[*study["deviation"].dims], create_index=False)
     data = data.isel(motion=data["deviation"].notnull().values)
-    excess, apart, range_ = data["deviation"], data["separation_fraction"], data["pinned_range"]
+    excess = data["deviation"]
+    apart = data["separation_fraction"]
+    range_ = data["pinned_range"]
     single = np.minimum(data["vibration_share"], data["force_share"]) >= 0.95
     inside = abs(excess) <= BAND
     band = f"within 5 %: {counted(inside[single])} filled, {counted(inside[~single])} hollow"
@@ -682,6 +699,7 @@ def draw_thirds(ax: Axes, thirds: Dataset, rows: Any) -> None:
     """A row for each parameter, with both shares, their intervals, and a line between them."""
     ax.hlines(rows, *thirds["share"].values, color=GREY)
     for i, (name, face) in enumerate((("lowest", "white"), ("highest", BLUE))):
-        one, up = thirds.isel(third=i), rows + 0.24 * i - 0.12
+        one = thirds.isel(third=i)
+        up = rows + 0.24 * i - 0.12
         ax.hlines(up, one["low"], one["high"], color=BLUE, label="95 % interval")
         ax.plot(one["share"], up, "o", color=BLUE, mfc=face, label=f"{name} third of its values")

@@ -152,9 +152,11 @@ class Run:
 
         # pauses serve Ctrl-C; there are fewer steps between them where a step costs
         # more. A compliant contact takes about four times as many steps per second
-        step_cost, audit_every = blocks_of(model), 256
+        step_cost = blocks_of(model)
+        audit_every = 256
         if execution.audit_every_step:
-            step_cost, audit_every = 6 * step_cost, 1
+            step_cost = 6 * step_cost
+            audit_every = 1
         return loop.Limits(
             order=order,
             tolerance=tolerance,

@@ -187,7 +187,9 @@ def transfer_state(p: Parameters, state: State) -> State:
     more = np.zeros(len(modes.psi))
     if state.mode_amplitudes is not None:
         more = modes.psi - state.mode_amplitudes
-    u, f, direction = state.u + more @ state.a, state.f, state.direction
+    u = state.u + more @ state.a
+    f = state.f
+    direction = state.direction
     if state.phase != "separation" and p.contact_compliance == 0:
         u = modes.psi @ state.a
     surface = surface_rate(p, state)
@@ -435,10 +437,12 @@ def _checked_gap(case: EngineCase, source: State, state: EngineState, *, is_star
     row = case.point[0]
     w = float(row.dot(state.disc))
     gap = source.u - w
-    place, room = "at", SAME_HEIGHT
+    place = "at"
+    room = SAME_HEIGHT
     free: object = case.model.has_compliance
     if source.phase == "separation":
-        place, room = "at or above", INSIDE
+        place = "at or above"
+        room = INSIDE
         free = gap > 0 or not is_start
     if gap == 0 or free:
         return gap
