@@ -222,7 +222,6 @@ WINDOWS = {
     "plain": PLAIN,
     "folded": PLAIN.replace(envelope=10),
     "brief": Window(start=0, stop=1, rate=100),
-    "one": Window(start=0, stop=1, rate=2, envelope=2),
     "poincare": Poincare(),
 }
 CASES = {"A": WINDOWS, "B": {}, "broken": None}
@@ -234,7 +233,6 @@ CASES = {"A": WINDOWS, "B": {}, "broken": None}
         ({**HISTORY, "case": "C"}, "case", "'C'", "no such case (known: A, B, broken)"),
         ({**HISTORY, "window": "plan"}, "window", "'plan'", "did you mean plain"),
         ({**HISTORY, "case": "B"}, "window", "'late'", "is not recorded by case B"),
-        ({**HISTORY, "window": "one"}, "window", "'one'", "two samples, or two envelopes, or more"),
         ({**HISTORY, "window": "poincare"}, "window", "'poincare'", "must be a window"),
         ({"kind": "portrait", "case": "A", "window": "folded"}, "window", "'folded'", "without an"),
         ({"kind": "spectrum", "case": "A", "window": "poincare"}, "window", "'poincare'", "window"),

@@ -154,7 +154,7 @@ def test_pictures_show_the_run_where_it_is(
         assert "Frequency" in ax.get_xlabel()
         return
     ax = run.plot(window)
-    time = np.concatenate([line.get_xdata() for line in np.ravel(ax)[0].lines])
+    time = np.concatenate([line.get_xdata() for line in np.ravel(ax)[-1].lines])
     assert time.size
 
 

@@ -32,10 +32,8 @@ from disc_model.figures.runs import (
 )
 from disc_model.figures.schema import (
     IN_FULL,
-    IN_TIME,
     Case,
     Cases,
-    InTime,
     Ranges,
     Role,
     Sampled,
@@ -357,7 +355,7 @@ TABLE_2 = {
 """Lines of the paper, Hz, by their components; pairs are too close for separate names."""
 
 
-@case_figure(dict.fromkeys(STRETCHES[1:], IN_TIME))
+@case_figure(dict.fromkeys(STRETCHES[1:], IN_FULL))
 def four_stretches(
     case: DataTree, ignored: Case, history: Ranges = "history", until: Seconds | None = None
 ) -> Figure:
@@ -419,7 +417,7 @@ def name_lines(ax: Axes) -> None:
 def response(  # noqa: PLR0913
     case: DataTree,
     variable: Sampled,
-    window: InTime,
+    window: Samples,
     ignored: Case = None,
     history: Ranges = "history",
     zooms: Annotated[tuple[tuple[str, Finite], ...], Field(max_length=2)] = (),

@@ -62,7 +62,8 @@ class TimeFrequency(NamedTuple):
 def rate_of(time: ArrayLike, values: ArrayLike) -> float:
     """Sampling rate (Hz) of uniform samples, both of shape (n,); raises ParameterError if they are
     not uniform."""
-    t, x = np.asarray(time, dtype=float), np.asarray(values, dtype=float)
+    t = np.asarray(time, dtype=float)
+    x = np.asarray(values, dtype=float)
     if t.ndim != 1 or x.shape != t.shape or t.size < 2:
         raise ParameterError("values: must be two or more, one for each time")
     if not np.isfinite(x).all():

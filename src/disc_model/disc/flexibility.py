@@ -4,11 +4,9 @@ those left out.
 Under a unit load at r_0, in a point or spread over the arc of a pad, the clamped-free plate deflects
 there by the sum of psi^2 / omega^2 over all its modes; under a pad, in the mean.  That is a static
 problem: for each harmonic D L^2 R = delta(r - r_0)/r_0 with L = d^2/dr^2 + 1/r d/dr - l^2/r^2, solved
-in closed form.  The difference from the sum over the modes kept is the residual flexibility.
-
-For l >= 2 a harmonic is that of the unbounded plate, r_0^2 / (4 D l (l^2 - 1)), plus the effect of
-the two edges: four functions r^l, r^(l+2), r^-l, r^(2-l), each scaled to 1 at the edge where it is
-largest.  Lengths are in outer radii.
+in closed form on both sides of the load.  The difference from the sum over the modes kept is the
+residual flexibility.  Far from the edges a high harmonic is that of the unbounded plate,
+r_0^2 / (4 D l (l^2 - 1)).  Lengths are in outer radii.
 """
 
 from dataclasses import dataclass
@@ -21,16 +19,15 @@ from disc_model.disc.plate import Array, mode_arrays, pad_factors
 from disc_model.errors import Fault, ModeError, ParameterError, as_text, raise_faults, require
 from disc_model.parameters import RESIDUAL, Parameters, foreign_case
 
-HIGHEST_HARMONIC = (
-    4096  # beyond it the plate is as if unbounded, unless the slider runs on its very edge
-)
-ROUNDING = 1e-13  # relative accuracy of the harmonics' closed forms: their functions become nearly equal at large l
+HIGHEST_HARMONIC = 4096
+"""Beyond it the plate is as if unbounded, unless the slider runs on its very edge."""
+ROUNDING = (1e-13, 1e-16)
+"""Relative error of the harmonics' closed forms, whose functions become nearly equal at large l, and
+its growth with the inverse cube of the distance from the clamped edge over the radius."""
 _TAIL_POINTS = 1000  # midpoints of the integral over harmonics beyond the highest
 _TAIL_ERROR = 0.01  # of that integral, relative: at most 0.3 % for any arc
-MODAL_SUM = (
-    60,
-    20,
-)  # diameters and circles of the sum that stands for all modes if these are ``as_published``
+MODAL_SUM = (60, 20)
+"""Diameters and circles of the sum that stands for all modes if these are ``as_published``."""
 
 
 @dataclass(frozen=True)
@@ -139,14 +136,24 @@ def _modal_sum(p: Parameters) -> float:
 
 
 def harmonic_flexibility(l: NDArray[np.int64], inner: float, x: float, nu: float) -> Array:
-    """Deflection at the load of the harmonics `l`, in units of b^2 / D: radii `inner` and 1, load
+    """Deflection at the load of the harmonics `l` (n,), in units of b^2 / D: radii `inner` and 1, load
     at `x`. The plate's point deflects by the harmonic l = 0 over 2 pi plus the sum of the others
     over pi."""
-    value = np.empty(l.shape)
-    for order in (0, 1):
-        value[l == order] = _with_edges(order, inner, x, nu)
-    value[l >= 2] = _high_harmonics(l[l >= 2], inner, x, nu)
-    return value
+    # growing powers are scaled to 1 at the outer end of their part of the plate, falling ones at the inner end
+    inside = np.array([x, x, inner, inner])
+    outside = np.array([1.0, 1.0, x, x])
+    before, after = (_functions(l, x, scale) for scale in (inside, outside))
+    conditions = np.zeros((l.size, 8, 8))
+    conditions[:, :2, :4] = _functions(l, inner, inside)[:, :2]
+    conditions[:, 2:4, 4:] = _free(l[:, None], nu, _functions(l, 1.0, outside))
+    conditions[:, 4:, :4] = -before
+    conditions[:, 4:, 4:] = after
+    sizes = np.abs(conditions).max(axis=2)
+    load = np.zeros((l.size, 8))
+    load[:, 7] = 1 / x  # the jump of the third derivative
+    systems = conditions / sizes[..., None]
+    amplitudes = np.linalg.solve(systems, (load / sizes)[..., None])[..., 0]
+    return np.asarray(np.sum(after[:, 0] * amplitudes[:, 4:], axis=1))
 
 
 @lru_cache(maxsize=256)
@@ -168,7 +175,8 @@ def _deflection(inner: float, x: float, nu: float, arc: float) -> tuple[float, f
     truncation = abs(factor - 1) * tail
     if arc:
         truncation += _TAIL_ERROR * tail
-    bound = truncation / np.pi + ROUNDING * total
+    rounding = ROUNDING[0] + ROUNDING[1] * (x / (x - inner)) ** 3
+    bound = truncation / np.pi + rounding * total
     return float(total / np.pi), float(bound)
 
 
@@ -179,99 +187,27 @@ def _mean_of_tail(arc: float) -> float:
     return float(np.mean(pad_factors(HIGHEST_HARMONIC / np.sqrt(midpoints), arc) ** 2))
 
 
-def _free(l: NDArray[np.int64] | int, nu: float, w: Array) -> tuple[Array, Array]:
-    """Radial moment and Kirchhoff shear at r = 1 of functions with the derivatives `w` (4, ...)
-    there."""
+def _free(l: NDArray[np.int64], nu: float, w: Array) -> Array:
+    """Radial moment and Kirchhoff shear at r = 1 of functions with the derivatives `w` (n, 4, ...)
+    there: (n, 2, ...)."""
     square = np.square(l)
-    value, slope, second, third = w
+    value, slope, second, third = np.moveaxis(w, 1, 0)
     moment = second + nu * (slope - square * value)
     of_laplacian = third + second - (1 + square) * slope + 2 * square * value
     of_twist = (1 - nu) * square * (slope - value)
-    return moment, of_laplacian - of_twist
+    return np.stack([moment, of_laplacian - of_twist], axis=1)
 
 
-def _power(n: Array, r: float) -> Array:
-    """Derivatives 0 to 3 of r^n over r^n: (4, ...)."""
-    value = np.ones_like(n)
-    slope = n / r
-    second = n * (n - 1) / r**2
-    third = n * (n - 1) * (n - 2) / r**3
-    return np.stack([value, slope, second, third])
-
-
-def _high_harmonics(l: NDArray[np.int64], inner: float, x: float, nu: float) -> Array:
-    """Harmonics l >= 2 (n,): those of the unbounded plate plus the effect of the edges."""
-    n = l.astype(float)
-    powers = np.stack([n, n + 2, -n, 2 - n])  # (4, n)
-    # r^n over its value at the edge where it is largest: 1 for the first two, inner for the others
-    largest = np.array([1.0, 1.0, inner, inner])[:, None]
-    clamped, free, at_slider = ((r / largest) ** powers for r in (inner, 1.0, x))
-    at_inner, at_outer = (_power(powers, r) for r in (inner, 1.0))
-    moment, shear = _free(l, nu, at_outer)
-    slope = clamped * at_inner[1] * inner / n
-    free_moment = free * moment / n**2
-    free_shear = free * shear / n**3
-    matrix = np.stack([clamped, slope, free_moment, free_shear])
-    # the unbounded plate: [s^2 (r/s)^l/(l-1) - r^2 (r/s)^l/(l+1)] / 8 l inside of s; outside, r and
-    # s are exchanged, so that its powers are the last two
-    near = (inner / x) ** n / (8 * n)
-    far = x**n / (8 * n)
-    inside_l = near * x**2 / (n - 1)  # its power r^l,
-    inside_next = -near * inner**2 / (n + 1)  # and r^(l + 2)
-    outside_next = far / (n - 1)  # r^(2 - l),
-    outside_l = -far * x**2 / (n + 1)  # and r^-l
-    value = inside_l + inside_next
-    slope = (inside_l * n + inside_next * (n + 2)) / n
-    load_moment = (outside_next * moment[3] + outside_l * moment[2]) / n**2
-    load_shear = (outside_next * shear[3] + outside_l * shear[2]) / n**3
-    right = np.stack([value, slope, load_moment, load_shear])
-
-    # the homogeneous solution that meets the conditions at both edges
-    systems = np.moveaxis(matrix, -1, 0)
-    edges = np.linalg.solve(systems, -right.T[..., None])[..., 0]
-    unbounded = x**2 / (4 * n * (n**2 - 1))
-    return unbounded + np.sum(edges.T * at_slider, axis=0)
-
-
-def _particular(l: int, s: float) -> Array:
-    """Derivatives 0 to 3 at r = 1 of a solution that is flat up to the load at s. For l = 0 it is
-    [(r^2 + s^2) ln(r/s) - r^2 + s^2]/4, for l = 1 r^3/(16 s) - s r ln(r/s)/4 - s^3/(16 r)."""
-    log = -np.log(s)
-    if l == 0:
-        value = (1 + s**2) * log - 1 + s**2
-        slope = 2 * log + (1 + s**2) - 2
-        second = 2 * log + 3 - s**2 - 2
-        third = 2 + 2 * s**2
-        return np.array([value, slope, second, third]) / 4
-    value = 1 / (16 * s) - s * log / 4 - s**3 / 16
-    slope = 3 / (16 * s) - s * (log + 1) / 4 + s**3 / 16
-    second = 6 / (16 * s) - s / 4 - 2 * s**3 / 16
-    third = 6 / (16 * s) + s / 4 + 6 * s**3 / 16
-    return np.array([value, slope, second, third])
-
-
-def _logarithmic(l: int, r: float) -> Array:
-    """Functions of l = 0 (1, ln r, r^2, r^2 ln r) or l = 1 (r, 1/r, r^3, r ln r), derivatives 0 to
-    3 at r: (4, 4)."""
-    log = np.log(r)
-    if l == 0:
-        constant = [1, 0, 0, 0]
-        logarithm = [log, 1 / r, -1 / r**2, 2 / r**3]
-        square = [r**2, 2 * r, 2, 0]
-        product = [r**2 * log, 2 * r * log + r, 2 * log + 3, 2 / r]
-        return np.array([constant, logarithm, square, product]).T
-    linear = [r, 1, 0, 0]
-    inverse = [1 / r, -1 / r**2, 2 / r**3, -6 / r**4]
-    cube = [r**3, 3 * r**2, 6 * r, 6]
-    product = [r * log, log + 1, 1 / r, -1 / r**2]
-    return np.array([linear, inverse, cube, product]).T
-
-
-def _with_edges(l: int, inner: float, x: float, nu: float) -> float:
-    """Harmonic l = 0 or 1 at the load, where the particular solution is zero."""
-    clamped = _logarithmic(l, inner)
-    free = _logarithmic(l, 1.0)
-    particular = _particular(l, x)
-    matrix = np.array([clamped[0], clamped[1], *_free(l, nu, free)])
-    right = -np.array([0.0, 0.0, *_free(l, nu, particular)])
-    return float(np.linalg.solve(matrix, right) @ _logarithmic(l, x)[0])
+def _functions(l: NDArray[np.int64], r: float, scale: Array) -> Array:
+    """The four functions of each harmonic that no load bends, r^l, r^(l+2), r^-l and r^(2-l) over
+    their values at `scale` (4,), with derivatives 0 to 3 at r: (n, 4 derivatives, 4 functions). The
+    third of l = 0, and the fourth of l = 0 and 1, have ln r besides, since they would equal another
+    one."""
+    n = l[:, None] * np.array([1.0, 1.0, -1.0, -1.0]) + np.array([0.0, 2.0, 0.0, 2.0])
+    one = np.ones_like(n)
+    none = np.zeros_like(n)
+    powers = np.stack([one, n, n * (n - 1), n * (n - 1) * (n - 2)], axis=1)
+    by_exponent = np.stack([none, one, 2 * n - 1, 3 * n**2 - 6 * n + 2], axis=1)
+    logarithmic = l[:, None] < np.array([0, 0, 1, 2])
+    factors = np.where(logarithmic[:, None], powers * np.log(r) + by_exponent, powers)
+    return factors * ((r / scale) ** n)[:, None] / r ** np.arange(4.0)[:, None]

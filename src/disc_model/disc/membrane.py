@@ -53,7 +53,7 @@ def harmonics(p: Parameters) -> dict[int, Harmonic]:
         if n >= 0:
             pairs.setdefault(n, []).append((one, other))
 
-    held = "inner" if p.stretching == "clamped" else ""
+    held = int(p.stretching == "clamped")
     plane = Plane((p.a, p.b), p.h, p.E, p.nu, held, 20 + p.n_diameters + 8 * p.n_circles)
     g, slopes = mode_slopes(p, plane.r)
     found = {}
@@ -68,12 +68,12 @@ class Plane:
 
     radii : of its edges, m
     h, E, nu : thickness (m), Young's modulus (Pa), Poisson's ratio
-    held : the edge that cannot move in the plane, "inner" or "outer"; "" for none
+    held : the edge that cannot move in the plane, 1 for the inner one, -1 for the outer one, 0 for none
     degree : of the Legendre polynomials in U and V
     """
 
     def __init__(
-        self, radii: tuple[float, float], h: float, E: float, nu: float, held: str, degree: int
+        self, radii: tuple[float, float], h: float, E: float, nu: float, held: int, degree: int
     ) -> None:
         x, weights = legendre.leggauss(3 * degree)
         half = (radii[1] - radii[0]) / 2
@@ -85,9 +85,8 @@ class Plane:
         values = legendre.legvander(x, degree)
         slopes = legendre.legval(x, legendre.legder(np.eye(degree + 1))).T / half
         if held:
-            sense = 1.0 if held == "inner" else -1.0
-            share = ((1 + sense * x) / 2)[:, None]
-            slopes = sense * values / (2 * half) + share * slopes
+            share = ((1 + held * x) / 2)[:, None]
+            slopes = held * values / (2 * half) + share * slopes
             values = share * values
         self._values = values
         self._slopes = slopes
@@ -121,7 +120,7 @@ class Plane:
     def _scaled(self, along: Array, across: Array, shear: Array) -> Array:
         """Strains e_r, e_t and gamma / i at the nodes, one below the other."""
         nu = self._nu
-        root = self._root if along.ndim == 1 else self._root[:, None]
+        root = self._root.reshape(-1, *[1] * (along.ndim - 1))
         along = root * (along + nu * across)
         across = root * np.sqrt(1 - nu**2) * across
         return np.concatenate([along, across, root * np.sqrt((1 - nu) / 2) * shear])
@@ -149,8 +148,9 @@ def _quartic_form(p: Parameters) -> Array:
     def coordinates(wave: Wave) -> Array:
         """z of a wave as a combination of the coordinates."""
         z = np.zeros(count, complex)
-        z[wave.mode] = 0.5 if wave.n else 1.0
+        z[wave.mode] = 1.0
         if wave.n:
+            z[wave.mode] = 0.5
             z[across[wave.mode]] = -0.5j * np.sign(wave.n)
         return z
 

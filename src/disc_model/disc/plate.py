@@ -23,10 +23,9 @@ from typing import Any
 import numpy as np
 
 from disc_model.arrays import Array, Indices
-from disc_model.errors import Fault, ModeError, ParameterError, as_text
+from disc_model.errors import ModeError, as_text, require
 from disc_model.parameters import SURFACE, Disc, Parameters
 
-SAME_AMPLITUDE = 0.05  # of a mode's largest motion: how far its shape may be from its amplitude
 POINTS_PER_ROOT = 6  # grid points per asymptotic root spacing pi/(1 - a/b) when brackets are sought
 WIDEST = 1e11  # greatest ratio of squared frequencies of disc and slider: their error is 1e-5, compared with 60 digits
 
@@ -52,20 +51,19 @@ class Modes:
             return float(np.sum((self.psi / self.omega) ** 2))
 
 
-def mode_arrays(p: Parameters, normalization: str = "") -> Modes:
-    """The modes of `plate_modes` as read-only arrays, the same at every call; `normalization`
-    replaces the case's."""
-    at_point = modes_at_point(p, normalization)
+def mode_arrays(p: Parameters) -> Modes:
+    """The modes of `plate_modes` as read-only arrays, the same at every call."""
+    at_point = modes_at_point(p)
     if p.contact_arc == 0:
         return at_point
     return _under_pad(at_point, p.contact_arc)
 
 
-def modes_at_point(p: Parameters, normalization: str = "") -> Modes:
+def modes_at_point(p: Parameters) -> Modes:
     """As `mode_arrays`, with the amplitudes of a single point at r_0, whatever the slider's arc."""
     if p.disc is not None:
         return modes_of_table(p.disc)
-    return _modes(_PLATE(p), (normalization or p.normalization) == "orthonormal")
+    return _modes(_PLATE(p), p.normalization == "orthonormal")
 
 
 def pad_factors(diameters: Indices | Array, arc: float) -> Array:
@@ -81,16 +79,22 @@ def tangential_amplitudes(p: Parameters) -> Array:
     if p.disc is not None and p.friction_offset == SURFACE:
         return np.array(p.disc.tangential) * pad_factors(mode_arrays(p).diameters, p.contact_arc)
     modes = mode_arrays(p)
-    height = p.h / 2 if p.friction_offset == SURFACE else float(p.friction_offset)
-    return -height / p.r_0 * modes.diameters * modes.psi
+    height = p.friction_offset
+    if height == SURFACE:
+        height = p.h / 2
+    return -float(height) / p.r_0 * modes.diameters * modes.psi
 
 
 def mode_shapes(p: Parameters, r: Array) -> Array:
     """Amplitudes of the modes at radii r (m, shape (k,)), in kg^-1/2, (n_modes, k); at r_0 those of
-    `modes_at_point`. For a table they are splines through its shapes and amplitudes. Raises
-    ParameterError if it has no shapes."""
+    `modes_at_point`. For a table they are splines through its shapes. Raises ParameterError if it
+    has none."""
     if p.disc is not None:
-        return _spline(*_given_shapes(p.disc, p.r_0), r)
+        from scipy.interpolate import make_interp_spline  # few callers need it
+
+        radial_range(p)
+        degree = min(3, len(p.disc.radii) - 1)
+        return np.asarray(make_interp_spline(p.disc.radii, p.disc.shapes, k=degree, axis=1)(r))
     if p.n_diameters < 0:  # a rigid disc
         return np.zeros((0, len(r)))
     shapes = _shapes(p.a / p.b, p.nu, p.n_diameters, p.n_circles)
@@ -116,34 +120,9 @@ def radial_range(p: Parameters) -> tuple[float, float]:
     disc has none."""
     if p.disc is None:
         return p.a, p.b
-    radii = _given_shapes(p.disc, p.r_0)[0]
-    return float(radii[0]), float(radii[-1])
-
-
-def _given_shapes(disc: Disc, r_0: float) -> tuple[Array, Array]:
-    """Radii, and the shapes of a table at these; at the slider the amplitudes that agree with them, within a
-    share of the mode's largest motion, replace them."""
-    if not disc.radii:
-        rule = "must have shapes at radii: only amplitudes under the slider are known"
-        raise ParameterError(Fault(("disc",), "", rule))
-    radii = np.array([r_0, *disc.radii])
-    amplitude = np.array(disc.amplitude)
-    shapes = np.column_stack([amplitude, disc.shapes])
-    if radii[1] <= r_0 <= radii[-1]:
-        by_shapes = _spline(radii[1:], shapes[:, 1:], radii[:1])[:, 0]
-        apart = np.abs(by_shapes - amplitude) > SAME_AMPLITUDE * np.abs(shapes).max(axis=1)
-        shapes[apart, 0] = by_shapes[apart]
-    # nm, by which two radii are the same
-    _, first = np.unique(np.round(radii, 9), return_index=True)
-    return radii[first], shapes[:, first]
-
-
-def _spline(radii: Array, shapes: Array, r: Array) -> Array:
-    """Shapes (n_modes, k) at radii (k,), interpolated at others (m,): (n_modes, m)."""
-    from scipy.interpolate import make_interp_spline  # few callers need it
-
-    degree = min(3, len(radii) - 1)
-    return np.asarray(make_interp_spline(radii, shapes, k=degree, axis=1)(r))
+    rule = "must have shapes: only amplitudes under the slider are known"
+    require((p.disc.radii, "disc.radii", p.disc.radii, rule))
+    return p.disc.radii[0], p.disc.radii[-1]
 
 
 def coupled_frequencies(p: Parameters, compliance: float = 0.0) -> Array:
@@ -194,8 +173,11 @@ def modal_damping(p: Parameters) -> Array:
     """Damping 2 xi omega of every mode, 1/s, in the order of `plate_modes`; (D*/D) omega^2 if no
     ratio xi is given."""
     omega = mode_arrays(p).omega
-    ratio = p.damping_ratio if p.disc is None else np.array(p.disc.damping_ratio)
-    return p.D_star / p.D * omega**2 if ratio is None else 2 * ratio * omega
+    if p.disc is not None:
+        return 2 * np.array(p.disc.damping_ratio) * omega
+    if p.damping_ratio is not None:
+        return 2 * p.damping_ratio * omega
+    return p.D_star / p.D * omega**2
 
 
 def damping_ratios(p: Parameters) -> Array:
@@ -229,9 +211,7 @@ def _modes(plate: tuple[Any, ...], orthonormal: bool) -> Modes:
     reuses them."""
     a, b, r_0, h, E, nu, rho, n_diameters, n_circles = plate
     if n_diameters < 0:  # a rigid disc
-        no_numbers = np.zeros(0, np.int64)
-        no_values = np.zeros(0)
-        return Modes(no_numbers, no_numbers.copy(), no_values, no_values.copy())
+        return Modes(*np.zeros((2, 0), np.int64), *np.zeros((2, 0)))
     shapes = _shapes(a / b, nu, n_diameters, n_circles)
     stiffness = E * h**3 / 12 / (1 - nu**2)
     # numpy's floats overflow without an exception, and the outcome is checked
@@ -306,17 +286,15 @@ def _shapes(inner: float, nu: float, n_diameters: int, n_circles: int) -> _Shape
     lam = _roots(inner, nu, n_diameters, n_circles).ravel()
     matrix, exponents = _columns(l, lam, inner, nu)
     if not np.all(np.isfinite(matrix)):
-        rule = (
-            f"must not be so near 0 for {n_diameters} nodal diameters: the modes cannot be computed"
-        )
-        raise ModeError(f"plate modes: a/b={inner:g} and 1 - a/b={1 - inner:g} {rule}")
+        ratios = f"a/b={inner:g} and 1 - a/b={1 - inner:g}"
+        rule = f"must not be so near 0 for {n_diameters} nodal diameters"
+        raise ModeError(f"plate modes: {ratios} {rule}: the modes cannot be computed")
     matrix = np.moveaxis(matrix, -1, 0)
     rows = np.max(np.abs(matrix), axis=2, keepdims=True)
     coefficients = np.linalg.svd(matrix / rows)[2][:, -1, :].T
     # a null vector has no sign of its own; at the free edge no mode vanishes
-    coefficients = coefficients * np.sign(
-        _evaluate(l, lam, coefficients, exponents, np.array([1.0]))[:, 0]
-    )
+    [at_edge] = _evaluate(l, lam, coefficients, exponents, np.array([1.0])).T
+    coefficients = coefficients * np.sign(at_edge)
     # nodes that integrate R^2 r to rounding: several per half wave, more for edge layers of many
     # diameters
     needed = int(40 + lam[-1] * (1 - inner) + 1.2 * n_diameters)
@@ -328,17 +306,20 @@ def _shapes(inner: float, nu: float, n_diameters: int, n_circles: int) -> _Shape
     values = _evaluate(l, lam, coefficients, exponents, nodes)
     circles = np.repeat(np.arange(n_circles + 1), n_diameters + 1)
     for shape, diameters, expected in zip(values, l, circles, strict=True):
-        clear = shape[
-            np.abs(shape) > 1e-7 * np.max(np.abs(shape))
-        ]  # without rounding errors near the clamp
-        counted = np.count_nonzero(clear[1:] * clear[:-1] < 0)
+        counted = _nodal_circles(shape)
         if counted != expected:
             root = f"root {expected} for {diameters} nodal diameters at a/b={inner:g}, nu={nu:g}"
-            raise ModeError(
-                f"plate modes: {root} has {counted} nodal circles; one was missed or doubled"
-            )
+            rule = f"has {counted} nodal circles; one was missed or doubled"
+            raise ModeError(f"plate modes: {root} {rule}")
     norm = 2 * np.pi * values**2 @ (weights * nodes)
     return _Shapes(inner, l, lam, coefficients, exponents, norm)
+
+
+def _nodal_circles(shape: Array) -> int:
+    """The number of changes of sign of a radial shape, but for rounding errors near the clamp."""
+    sizes = np.abs(shape)
+    clear = shape[sizes > 1e-7 * np.max(sizes)]
+    return int(np.count_nonzero(clear[1:] * clear[:-1] < 0))
 
 
 def _evaluate(l: Indices, lam: Array, coefficients: Array, exponents: Array, x: Array) -> Array:
@@ -355,32 +336,23 @@ def _roots(inner: float, nu: float, n_diameters: int, n_circles: int) -> Array:
 
     step = np.pi / (1 - inner) / POINTS_PER_ROOT
     l = np.arange(n_diameters + 1)
-    start = 0.02 + 0.3 * np.maximum(
-        l - 1.0, 0.0
-    )  # below the first roots, where the determinant is well conditioned
-    by_diameters: list[list[tuple[float, float]]] = [[] for _ in l]
-    chunk = POINTS_PER_ROOT * (n_circles + 1) + 8
-    missing = l
-    for first in range(0, 200 * chunk, chunk):
-        grid = start[missing, None] + step * np.arange(first, first + chunk + 1)
-        orders = np.broadcast_to(missing[:, None], grid.shape)
-        signs = np.sign(_determinant(orders.ravel(), grid.ravel(), inner, nu)).reshape(grid.shape)
+    # below the first roots, where the determinant is well conditioned
+    start = 0.02 + 0.3 * np.maximum(l - 1.0, 0.0)
+    first = POINTS_PER_ROOT * (n_circles + 1) + 8
+    for count in first * 2 ** np.arange(9):
+        grid = start[:, None] + step * np.arange(count + 1)
+        of_grid = np.broadcast_to(l[:, None], grid.shape).ravel()
+        signs = np.sign(_determinant(of_grid, grid.ravel(), inner, nu)).reshape(grid.shape)
         # a zero on the grid belongs to the interval that ends there
-        before = signs[:, :-1]
-        changes = (signs[:, 1:] != before) & (before != 0)
-        for row, i in np.argwhere(changes):
-            bracket = (grid[row, i], grid[row, i + 1])
-            by_diameters[missing[row]].append(bracket)
-        missing = np.array(
-            [order for order in missing if len(by_diameters[order]) <= n_circles], dtype=np.int64
-        )
-        if missing.size == 0:
+        changes = (signs[:, 1:] != signs[:, :-1]) & (signs[:, :-1] != 0)
+        lacking = l[changes.sum(axis=1) <= n_circles]
+        if lacking.size == 0:
             break
     else:
-        raise ModeError(
-            f"plate modes: no {n_circles + 1} roots for {missing[0]} nodal diameters at a/b={inner:g}"
-        )
-    brackets = np.array([of_l[: n_circles + 1] for of_l in by_diameters]).transpose(2, 1, 0)
+        roots = f"no {n_circles + 1} roots for {lacking[0]} nodal diameters"
+        raise ModeError(f"plate modes: {roots} at a/b={inner:g}")
+    places = np.argsort(~changes, axis=1, kind="stable")[:, : n_circles + 1]
+    brackets = [np.take_along_axis(grid, places + end, axis=1).T for end in (0, 1)]
     orders = np.tile(l, (n_circles + 1, 1))
 
     def determinant(lam: Array, orders: Indices) -> Array:

@@ -204,26 +204,26 @@ def _matrices(basis: Any, l: int, material: Material) -> tuple[Any, Any]:
     E, nu, rho = material
     lame = E * nu / ((1 + nu) * (1 - 2 * nu))
     shear = E / 2 / (1 + nu)
-    angle = math.pi if l else 2 * math.pi  # of cos^2(l theta)
+    elasticity = np.diag([2 * shear] * 3 + [shear] * 3)
+    elasticity[:3, :3] += lame
+    angle = math.pi * (1 + (l == 0))  # of cos^2(l theta)
 
-    def strain(u: Any, w: Any, v: Any, r: Any) -> tuple[Any, ...]:
-        """Three normal strains, then the doubled shear strains; u, w, v are u_r, u_z, u_theta."""
+    def strain(r: Any, *shape: Any) -> Array:
+        """Three normal strains, then the doubled shear strains, of u_r, u_z and u_theta."""
+        u, w, v = shape
         normal = (u.grad[0], w.grad[1], (u + l * v) / r)
         in_section = u.grad[1] + w.grad[0]
         in_plane = v.grad[0] - (l * u + v) / r
         across = v.grad[1] - l * w / r
-        return (*normal, in_section, in_plane, across)
+        return np.array([*normal, in_section, in_plane, across])
 
-    def energy(u: Any, w: Any, v: Any, u_: Any, w_: Any, v_: Any, point: Any) -> Any:
-        first = strain(u, w, v, point.x[0])
-        second = strain(u_, w_, v_, point.x[0])
-        factors = [2 * shear] * 3 + [shear] * 3
-        terms = zip(factors, first, second, strict=True)
-        of_shape = sum(c * a * b for c, a, b in terms)
-        of_volume = lame * sum(first[:3]) * sum(second[:3])
-        return (of_volume + of_shape) * point.x[0]
+    def energy(*shapes: Any) -> Any:
+        r = shapes[-1].x[0]
+        both = strain(r, *shapes[:3]), strain(r, *shapes[3:6])
+        return r * np.einsum("i...,ij,j...->...", both[0], elasticity, both[1])
 
-    def inertia(u: Any, w: Any, v: Any, u_: Any, w_: Any, v_: Any, point: Any) -> Any:
-        return rho * (u * u_ + w * w_ + v * v_) * point.x[0]
+    def inertia(*shapes: Any) -> Any:
+        r = shapes[-1].x[0]
+        return rho * r * sum(a * b for a, b in zip(shapes[:3], shapes[3:6], strict=True))
 
     return form(energy).assemble(basis) * angle, form(inertia).assemble(basis) * angle

@@ -56,13 +56,13 @@ class Place(Strict):
 
 class Circle(NamedTuple):
     """The nodes on the slider's circle: numbers, angles (rad), directions of the axis (3,) and of the
-    path (nodes, 3), and the matrix that fits cosines, then sines, of 0, 1, 2, ... waves to them."""
+    path (nodes, 3), and the matrix that fits cosines, plus i times sines, of 0, 1, 2, ... waves."""
 
     labels: Sequence[int]
     angles: Array
     axis: Array
     path: Array
-    fit: Array
+    fit: Any
 
 
 class Wave(NamedTuple):
@@ -183,8 +183,8 @@ def _circle(nodes: Iterable[Data], moved: Array, length: float, place: Place) ->
     rule = f"must have nodes all around: {len(angles)} leave {math.degrees(gap):.0f} degrees free"
     require((most > 0, "r_0", place.r_0, rule))
     waves = np.outer(angles, np.arange(most + 1))
-    fit = np.linalg.pinv(np.hstack([np.cos(waves), np.sin(waves)]))
-    return Circle(labels[on].tolist(), angles, axis, path, fit)
+    cosines, sines = np.split(np.linalg.pinv(np.hstack([np.cos(waves), np.sin(waves)])), 2)
+    return Circle(labels[on].tolist(), angles, axis, path, cosines + 1j * sines)
 
 
 def _wave(data: Data, circle: Circle, unit_mass: float) -> Wave | None:
@@ -198,27 +198,23 @@ def _wave(data: Data, circle: Circle, unit_mass: float) -> Wave | None:
     if total <= UNMOVED**2 * np.sum(moved**2):
         return None
 
-    motion = np.stack([normal, np.sum(moved * circle.path, axis=1)], axis=1)
-    fitted = (circle.fit @ motion).reshape(2, -1, 2)  # cosine and sine, diameters, normal and along
-    l = int(np.hypot(*fitted[:, :, 0]).argmax())
-    (cosine, along_cosine), (sine, along_sine) = fitted[:, l]
-    amplitude = math.hypot(cosine, sine)
-    turn = math.atan2(sine, cosine)
-    rest = normal - amplitude * np.cos(l * circle.angles - turn)
+    # of cosines, plus i times that of sines: a exp(i turn), and along the path i v exp(i turn)
+    waves = circle.fit @ np.stack([normal, np.sum(moved * circle.path, axis=1)], axis=1)
+    l = int(np.abs(waves[:, 0]).argmax())
+    wave, along = waves[l]
+    rest = normal - np.real(wave * np.exp(-1j * l * circle.angles))
     followed = 1 - rest @ rest / total
-    rule = (
-        f"must have half of its motion in one number of nodal diameters: {l} have {followed:.0%}, "
-    )
-    rule += f"and {len(normal)} nodes tell up to {fitted.shape[1] - 1}"
+    rule = f"must have half of its motion in one number of nodal diameters: {l} have {followed:.0%}"
+    rule += f", and {len(normal)} nodes tell up to {len(waves) - 1}"
     require((followed > FOLLOWED, "mode", f"{frequency:g} Hz", rule))
     return Wave(
         omega=math.tau * frequency,
         diameters=l,
-        amplitude=amplitude,
+        amplitude=abs(wave),
         # of the half that moves normally as sin(l theta), it is that of cos(l theta)
-        tangential=(l > 0) * (along_cosine * sine - along_sine * cosine) / amplitude,
+        tangential=(l > 0) * (wave * along.conjugate()).imag / abs(wave),
         damping_ratio=viscous + hysteretic / 2,  # the same loss at resonance
-        turn=turn,
+        turn=np.angle(wave),
     )
 
 

@@ -80,28 +80,37 @@ def _in_words(data: Dataset) -> Dataset:
 def _group(data: Dataset, dims: Any, wished: Names) -> Entries:
     """Variables of the same dimensions: a table of all values that each point has, with labels and
     what is said of missing ones, and the chart."""
-    known = data[[name for name, x in data.items() if {*x.dims} <= {*dims}]]
-    names = [name for name, x in known.items() if x.dims == dims]
-    own = known[sorted(names, key=FIRST.__contains__, reverse=True)]
+    known = data[[name for name, x in data.items() if set(dims).issuperset(x.dims)]]
+    own = known[
+        sorted(
+            (name for name, x in known.items() if x.dims == dims),
+            key=FIRST.__contains__,
+            reverse=True,
+        )
+    ]
     axes, chosen = axes_of(own, wished)
     table = known.to_dataframe(dim_order=dims).reset_index()
     flags = [str(name) for name, x in known.items() if x.dtype == object and name not in TEXTS]
     looks = looks_of(table[flags].to_numpy().ravel())
     table[flags] = table[flags].map(lambda word: looks[word].label)
     _add_places(table, own, axes, chosen)
-    lists: Any = {dim: dict(enumerate(map(value_text, own[dim]))) for dim in chosen}
-    for name, x in own.items():
-        if name not in TEXTS:
-            kind = "classes" if name in flags else "numbers"
-            lists.setdefault(kind, {})[name] = f"{label(x)} · {name}"
     words = {name: table[name].unique().tolist() for name in flags}
     told = [known[name] for name in [*known.coords, *known]]
     return {
         "title": ", ".join(label(own[dim]) for dim in dims),
         "told": {x.name: [label(x), missing_text(x)] for x in told},
         "points": _columns(table),
-        "spec": points_chart(own, axes, lists, words, looks.values()),
+        "spec": points_chart(own, axes, _lists(own, flags, chosen), words, looks.values()),
     }
+
+
+def _lists(own: Dataset, flags: Names, chosen: Names) -> Entries:
+    """Labels of what can be chosen: values along dimensions by their index, classes and numbers by their
+    names."""
+    lists: Any = {dim: dict(enumerate(map(value_text, own[dim]))) for dim in chosen}
+    for name, x in own.drop_vars(TEXTS, errors="ignore").items():
+        lists.setdefault(("numbers", "classes")[name in flags], {})[name] = f"{label(x)} · {name}"
+    return lists
 
 
 def _add_places(table: Any, group: Dataset, axes: Names, chosen: Names) -> None:

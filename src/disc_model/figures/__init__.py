@@ -41,7 +41,7 @@ def plot_sweep(
     study : such as `disc_model.sweep`, `run_study`, `hysteresis` and `basins` return. Of a variable of three
         dimensions choose values first, as by ``study.sel(N=385)``
     variable : if not given, the shares of starts, the growth rate, the outcome, the critical speed, or the first
-        number there is
+        that there is but the status
     x : the dimension, or the column of paired values or of their names, along the horizontal axis
     ax : axes to draw on; a second line there has the next colour. In a new figure without them
     units : by the names of parameters or sampled variables, such as ``{"Omega": "rpm", "P": "kN"}``

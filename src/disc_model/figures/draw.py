@@ -50,7 +50,9 @@ MOST_MARKS = 12  # on one line of several
 NO_LOOKS: dict[str, Look] = {}
 SIDES = ("right", "left")  # of lines, for their names
 NOTE: Options = {"textcoords": "offset points", "fontsize": 7}
-LOWER, UPPER = 0.015, 0.985  # places of crosses, share of a panel
+# places of crosses, share of a panel
+LOWER = 0.015
+UPPER = 0.985
 BELOW_ANY = "−∞, below any number"
 
 
@@ -209,11 +211,15 @@ def strip(ax: Axes, flag: DataArray) -> None:
 
     flag : words, shape (x,)
     """
-    said, sides = words(flag), edges(flag[str(flag.dims[0])])
-    x, place = np.repeat(sides, 2)[1:-1], ax.get_xaxis_transform()
+    said = words(flag)
+    sides = edges(flag[str(flag.dims[0])])
+    x = np.repeat(sides, 2)[1:-1]
+    place = ax.get_xaxis_transform()
     for word, look in looks_of(said[said != ""]).items():
         here = np.repeat(said == word, 2)
-        paint = look.paint if look.hatch else {**look.paint, "ec": GREY}  # white ones are seen
+        paint = look.paint
+        if not look.hatch:
+            paint["ec"] = GREY  # white ones are seen
         ax.fill_between(x, 0, 1, here, transform=place, zorder=0, lw=0.4, **paint)
 
 
@@ -237,8 +243,7 @@ def number_map(ax: Axes, x: DataArray, missing: DataArray | None = None, **colou
 
 def missing_text(x: DataArray) -> str:
     """What a legend says of points without a value."""
-    why = x.attrs.get("missing", "")
-    return f"no value: {why}" if why else "no value"
+    return f"no value: {x.attrs.get('missing', '')}".removesuffix(": ")
 
 
 def lone_cells(flag: DataArray) -> DataArray:
@@ -246,9 +251,18 @@ def lone_cells(flag: DataArray) -> DataArray:
     cells."""
     alone = xr.zeros_like(flag, dtype=bool)
     for dim in flag.dims:
-        before, after = flag.shift({dim: 1}), flag.shift({dim: -1})
+        before = flag.shift({dim: 1})
+        after = flag.shift({dim: -1})
         alone |= (before == after) & (flag != before)
     return alone & flag.notnull() & ~flag.isin(["", "excluded"])
+
+
+def around(area: DataArray) -> DataArray:
+    """An area of a map with the cells beside it, without parts that are one cell wide."""
+    from scipy.ndimage import binary_dilation, binary_opening
+
+    wide = binary_opening(np.pad(area, 1, mode="edge"), np.ones((2, 2)))[1:-1, 1:-1]
+    return area.copy(data=binary_dilation(wide, np.ones((3, 3))))
 
 
 def unresolved(ax: Axes, flag: DataArray) -> None:
@@ -259,7 +273,8 @@ def unresolved(ax: Axes, flag: DataArray) -> None:
 def growth_colours(rate: DataArray) -> Options:
     """Colours of growth rates: neutral at zero, and nearly logarithmic beyond a thirtieth of the
     end of the scale."""
-    sizes, end = np.abs(finite_of(rate)), LARGEST_RATE
+    sizes = np.abs(finite_of(rate))
+    end = LARGEST_RATE
     if sizes.size and np.median(sizes) > LARGEST_RATE:
         end = float(np.quantile(sizes, COMMON))
     return {"cmap": cm.vik, "norm": AsinhNorm(end / 30, -end, end)}
@@ -268,7 +283,11 @@ def growth_colours(rate: DataArray) -> Options:
 def usual_colours(x: DataArray) -> Options:
     """Colours of other numbers, around zero if they have both signs."""
     values = finite_of(x)
-    low, high = (values.min(), values.max()) if values.size else (0.1, 1.0)
+    low = 0.1
+    high = 1.0
+    if values.size:
+        low = values.min()
+        high = values.max()
     if low < 0 < high:
         high = max(-low, high)
         return {"cmap": cm.vik, "norm": Normalize(-high, high)}
@@ -285,7 +304,9 @@ def colours_of(x: DataArray) -> Options:
     """Colours of any numbers; none of words."""
     if is_words(x):
         return {}
-    return growth_colours(x) if is_rate(x) else usual_colours(x)
+    if is_rate(x):
+        return growth_colours(x)
+    return usual_colours(x)
 
 
 def is_rate(x: DataArray) -> bool:
@@ -310,7 +331,7 @@ def sign_changes(ax: Axes, rate: DataArray, name: str) -> None:
     if min(rate.shape) > 1 and rate.min() < 0 < rate.max():
         up, across = (rate[str(dim)] for dim in rate.dims)
         ax.contour(across, up, rate, [0], colors=BLACK, linewidths=0.8)
-        ax.plot([], [], color=BLACK, lw=0.8, label=name)
+        ax.plot([], [], color=BLACK, label=name)
 
 
 def frame(ax: Axes, plane: DataArray) -> None:
@@ -338,7 +359,9 @@ def scale(axis: Any, x: DataArray) -> None:
 
 def once(ax: Axes, text: str) -> str:
     """A label, or none if something on the axes has it already."""
-    return "_nolegend_" if text in ax.get_legend_handles_labels()[1] else text
+    if text in ax.get_legend_handles_labels()[1]:
+        return "_nolegend_"
+    return text
 
 
 def wished(look: Mapping[str, Any], **usual: Any) -> Options:
@@ -433,7 +456,8 @@ def mark_points(ax: Axes, x: Any, y: Any, name: str, **look: Any) -> None:
 
     x : of the first dimensions of `y`, or as these
     """
-    across, heights = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
+    across = np.asarray(x, dtype=float)
+    heights = np.asarray(y, dtype=float)
     places = across.reshape(across.shape + (1,) * (heights.ndim - across.ndim))
     known = np.isfinite(heights)
     if known.any():
@@ -459,7 +483,7 @@ def rate_axis(ax: Axes, linear: float = LINEAR_RATE) -> None:
     if np.abs(ax.dataLim.intervaly).max() > LARGEST_RATE / LINEAR_RATE * linear:
         ax.set_yscale("symlog", linthresh=linear, subs=range(2, 10))
         ax.yaxis.set_major_formatter("{x:g}")
-    ax.axhline(0, color=GREY, lw=0.5, zorder=0)
+    ax.axhline(0, color=GREY, zorder=0)
 
 
 # ---- Shares
@@ -471,7 +495,8 @@ def shares(ax: Axes, x: DataArray, fractions: DataArray, classes: str) -> None:
     fractions : shape (x, classes)
     classes : the dimension of words
     """
-    sides, bottom = edges(x), np.zeros(x.size)
+    sides = edges(x)
+    bottom = np.zeros(x.size)
     looks = looks_of(fractions[classes].values)
     for word in fractions[classes].values:
         share = fractions.sel({classes: word}).values

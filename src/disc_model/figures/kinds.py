@@ -14,7 +14,6 @@ from disc_model.data.variables import stated_in
 from disc_model.errors import Fault, ParameterError, suggestion
 from disc_model.figures import modes, motions, runs, studies
 from disc_model.figures.draw import COLUMN, PAGE, finish, panels, styled
-from disc_model.figures.looks import Options
 from disc_model.figures.schema import NORM, CasePlot, Kind, Plot, kinds_in
 from disc_model.figures.shown import key_of, shown, shown_case
 from disc_model.parameters import Parameters
@@ -29,7 +28,9 @@ def kind_of(name: Any) -> type[Kind]:
     """The kind of a name, such as ``heat_map``, or ``paper.one_separation``: that of a part of the
     workflow that has a module ``figures``, and may be absent. Raises `ParameterError`."""
     part, _, _ = str(name).rpartition(".")
-    known = kinds_of_part(part) if part else KINDS
+    known = KINDS
+    if part:
+        known = kinds_of_part(part)
     if not isinstance(name, str) or name not in known:
         rule = f"unknown kind of figure{suggestion(name, known or KINDS)}"
         raise ParameterError(Fault.of(("kind",), name, rule))
@@ -57,7 +58,7 @@ def render(plot: Kind, inputs: Mapping[str, DataTree]) -> Figure:
             else:
                 figure = _of_studies(plot, inputs)
         except Missing as reason:
-            what = "case" if isinstance(plot, CasePlot) else "study"
+            what = ("study", "case")[isinstance(plot, CasePlot)]
             figure, axes = panels([["a"]], COLUMN, 2)
             axes["a"].set_axis_off()
             axes["a"].text(0.5, 0.5, f"not shown: the {what} {reason}", ha="center", wrap=True)
@@ -85,8 +86,9 @@ def _of_studies(plot: Any, inputs: Mapping[str, DataTree]) -> Figure:
     study, *others = (_prepared(plot, tree.to_dataset()) for tree in inputs.values())
     overlays = {}
     for role, other in zip([*inputs][1:], others, strict=True):
-        alike = NORM in other.dims and NORM not in study.dims
-        overlays[role] = other.sel({NORM: normalization_of(study)}) if alike else other
+        if NORM in other.dims and NORM not in study.dims:
+            other = other.sel({NORM: normalization_of(study)})
+        overlays[role] = other
     figure: Figure = type(plot).function(study, **plot.options, **overlays)
     return figure
 
@@ -105,10 +107,10 @@ def _prepared(plot: Plot, data: Dataset) -> Dataset:
         if name in data.dims:
             keys = [key_of(each) for each in data[name].values]
             data = data.isel({name: keys.index(key_of(value))})
-    kept = {*plot.axes.values(), *plot.shows.needs}
+    single = {str(name) for name, size in data.sizes.items() if size == 1}
+    single -= {*plot.axes.values(), *plot.shows.needs}
     if plot.shows.quantities:  # whose own dimensions the figure takes
-        kept |= {str(name) for name in data.dims if name not in data["status"].dims}
-    single = [name for name, size in data.sizes.items() if size == 1 and name not in kept]
+        single &= {*data["status"].dims}
     data = shown(data.squeeze(single), plot.units)
     by = plot.axes.get("by", NORM)
     if plot.names and by in data.coords:
@@ -119,15 +121,19 @@ def _prepared(plot: Plot, data: Dataset) -> Dataset:
 def save(figure: Figure, path: str | Path, title: str = "") -> None:
     """Write a figure with its title; equal figures give equal bytes. Further files have the layout of
     the first."""
-    metadata: Options = {"Title": title} if title else {}
-    options: Options = {"pil_kwargs": {"compress_level": 1}}  # half the time, 1.1 of the size
+    options: dict[str, Any] = {
+        "pil_kwargs": {"compress_level": 1}
+    }  # half the time, 1.1 of the size
+    metadata: dict[str, Any] = {"Software": None}
     if Path(path).suffix == ".pdf":
         options = {}
-    stamp = "Software" if options else "CreationDate"
+        metadata = {"CreationDate": None}
+    if title:
+        metadata["Title"] = title
     with styled():
         layout = figure.get_layout_engine()
         if layout is not None:
             layout.execute(figure)
             figure.set_layout_engine(None)
             figure.align_ylabels()
-        figure.savefig(path, metadata={**metadata, stamp: None}, **options)
+        figure.savefig(path, metadata=metadata, **options)

@@ -33,8 +33,10 @@ class Look(NamedTuple):
     @property
     def paint(self) -> Options:
         """What matplotlib calls them."""
-        ink = self.ink if self.hatch else "none"
-        return {"label": self.label, "fc": self.face, "hatch": self.hatch, "ec": ink}
+        paint = {"label": self.label, "fc": self.face, "hatch": self.hatch, "ec": "none"}
+        if self.hatch:
+            paint["ec"] = self.ink
+        return paint
 
 
 STABLE = Look("stable", "none", "...")

@@ -80,7 +80,8 @@ def bifurcation(
 def _samples(ax: Axes, study: Dataset, x: str) -> None:
     """Samples by phase, hollow where motions have not settled, below the classes of motion."""
     options = stated_in(study, "options")
-    psi, late = study["psi"].transpose(x, ...), study["settled"] != "settled"
+    psi = study["psi"].transpose(x, ...)
+    late = study["settled"] != "settled"
     for phase, marker in MARKS.items():
         look: Options = {"color": OF_PHASE[phase], "mfc": OF_PHASE[phase], "ms": 2.0, "mew": 0}
         here = psi.where((study["phase"] == phase) & ~late)
@@ -150,7 +151,7 @@ def _branch(ax: Axes, x: DataArray, y: DataArray, rate: DataArray, name: str, co
 
     rate : growth rate of disturbances, 0 where stability changes
     """
-    ax.plot(x, y, color=colour, lw=0.7, label=once(ax, f"{name}: unstable"))
+    ax.plot(x, y, color=colour, label=once(ax, f"{name}: unstable"))
     thicken(ax, x, y, stable_between(rate.values), f"{name}: stable", color=colour)
 
 
@@ -313,7 +314,8 @@ def staircase(
 
 def _steps(ax: Axes, data: Dataset, x: str) -> None:
     """Steps of separations per release, and their numbers of releases, the longest first."""
-    along, heights = data[x].values, data["separations_per_release"]
+    along = data[x].values
+    heights = data["separations_per_release"]
     lines(
         ax,
         heights,
@@ -359,12 +361,13 @@ def phase_map(study: Dataset) -> Figure:
     near.autoscale(False)
     pieces = study.dropna("probe", subset=["map_separations"]).groupby("map_separations")
     for i, (number, piece) in enumerate(pieces):
-        at, after = piece["map_phase"], piece["map_next_phase"]
+        at = piece["map_phase"]
+        after = piece["map_next_phase"]
         for ax in axes.values():
             ax.plot(at, after, ".", color=(BLACK, RED)[i % 2], ms=2, label="slider held once")
         text = f"{number:g} separations,\nslope {piece['map_slope'].mean():.2f}"
         near.annotate(text, (at[0], after[0]), (4, -2), va="top", **NOTE)
     for ax in axes.values():
-        ax.axline((1, 1), slope=1, color=GREY, lw=0.6, zorder=0)
+        ax.axline((1, 1), slope=1, color=GREY, zorder=0)
         ax.set(xlabel="Phase of a release", ylabel="Phase of the next one")
     return figure

@@ -45,7 +45,8 @@ USUAL = (
     "psi",
     "kind",
 )
-"""Variables of sweeps that are drawn unless another one is asked for: the first that there is."""
+"""Variables of sweeps that are drawn unless another one is asked for: the first that there is, or else
+the first of others."""
 CLASSES = "attractor_class"  # dimension along which shares of starts add up to one
 ROW = 1.4  # height of a row of histories, inch
 LETTERS = 12.0  # per inch, of a legend in matplotlib's own style
@@ -70,7 +71,9 @@ class Wishes(Strict):
 def axes_for(ax: Any) -> Axes:
     """The axes of a reader, or those of a new figure."""
     require((isinstance(ax, Axes | None), "ax", ax, "must be axes of matplotlib"))
-    return plt.subplots(layout="constrained")[1] if ax is None else ax
+    if ax is None:
+        return plt.figure(layout="constrained").subplots()
+    return ax
 
 
 def explained(ax: Axes, below: bool = False) -> Axes:
@@ -210,7 +213,8 @@ def spectrum(
     given = Wishes(highest=highest, units=units)
     samples = window_of(shown_case(case, given.units), name, variable=variable)
     ax = axes_for(ax)
-    before, limits = len(ax.lines), ax.viewLim.frozen()
+    before = len(ax.lines)
+    limits = ax.viewLim.frozen()
     with refused("window", name):
         runs.draw_spectrum(ax, samples, variable, given.highest)
     for line in ax.lines[before:]:
@@ -245,7 +249,9 @@ def sweep(study: Any, variable: Any, x: Any, ax: Any, units: Any, **look: Any) -
     is_study = isinstance(study, Dataset | DataTree)
     require((is_study, "study", study, "must be an xarray.Dataset"))
     units = Wishes(variable=variable, x=x, units=units).units
-    data = study.to_dataset() if isinstance(study, DataTree) else study
+    data = study
+    if isinstance(study, DataTree):
+        data = study.to_dataset()
     single = [dim for dim, size in data.sizes.items() if size == 1 and dim != x]
     data = swapped(data.squeeze(single).compute(), x)
     name = chosen(data, variable, x)
@@ -287,23 +293,28 @@ def swapped(study: Dataset, x: str) -> Dataset:
 def chosen(study: Dataset, variable: str, x: str) -> str:
     """The name of the variable that is drawn; raises `ParameterError`."""
     known = [str(name) for name in study.data_vars]
-    plain = [name for name in known if "flag_meanings" not in study[name].attrs]
-    numbers = [name for name in plain if study[name].dtype.kind in "fiu"]
-    varying = [name for name in (*USUAL, *numbers, *known) if name in known and study[name].ndim]
-    name = variable or [*varying, ""][0]
+    name = variable or usual_of(study)
     require((name in known, "variable", name, f"unknown variable{suggestion(name, known)}"))
     dims = [str(dim) for dim in study[name].dims]
-    others = [dim for dim in dims if dim != x][2 - (x in dims) :]
+    others = [dim for dim in dims if dim != x]
+    free = others[2 - (x in dims) :]
     rule = f"varies along {', '.join(dims) or 'nothing'}, but must vary along one or two dimensions"
-    if others:
-        rule += f": choose values of others, as by {selection(others)}"
+    if free:
+        rule += f": choose values of others, as by {selection(free)}"
     real = study[name].dtype.kind != "c"
     require(
         (real, "variable", name, "is complex: draw a part of it, such as abs(...)"),
-        (dims and not others, "variable", name, rule),
+        (dims and not free, "variable", name, rule),
         (not x or x in dims, "x", x, f"must be one of its dimensions{suggestion(x, dims)}"),
     )
     return name
+
+
+def usual_of(study: Dataset) -> str:
+    """The variable that is drawn unless another one is asked for, "" if none varies."""
+    others = study.drop_vars(["status", "message"], errors="ignore").data_vars
+    varying = [name for name in (*USUAL, *others, "status") if name in study and study[name].ndim]
+    return str([*varying, ""][0])
 
 
 def selection(dims: Iterable[Any]) -> str:

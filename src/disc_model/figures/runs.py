@@ -76,7 +76,7 @@ def draw_history(axes: Sequence[Axes], samples: Dataset, variables: Sequence[str
         colour = OF_VARIABLE.get(name.removesuffix("_velocity"), BLACK)
         if name in samples:
             x = samples[name]
-            ax.plot(time, x, color=colour, lw=0.8)
+            ax.plot(time, x, color=colour)
         elif f"{name}_max" in samples:
             x = samples[f"{name}_max"]
             draw_range(ax, samples, name, color=colour)
@@ -189,7 +189,8 @@ def draw_sections(axes: Sequence[Axes], case: DataTree, name: str = "poincare") 
     Light: before the first separation, and on the way to the final motion, if its start is known.
     """
     samples = window_of(case, name)
-    first, final = number_of(case, "first_separation"), final_since(case, samples)
+    first = number_of(case, "first_separation")
+    final = final_since(case, samples)
     conditions = [
         samples["time"] < first,
         samples["time"] < final,
@@ -272,7 +273,7 @@ def draw_spectrum(ax: Axes, samples: Dataset, variable: str, highest: float | No
             verticalalignment="bottom",
             fontsize=6,
         )
-    ax.semilogy(*amplitude_spectrum(*signal), color=BLACK, lw=0.7)
+    ax.semilogy(*amplitude_spectrum(*signal), color=BLACK)
     x.attrs["long_name"] += ", amplitude"
     ax.set(
         xlim=(0, end),

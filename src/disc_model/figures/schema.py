@@ -8,7 +8,7 @@ import inspect
 from collections.abc import Callable, Mapping, Sequence
 from typing import Annotated, Any, ClassVar, Literal, NamedTuple, cast, get_type_hints
 
-from pydantic import AfterValidator, BeforeValidator, Field, create_model
+from pydantic import AfterValidator, Field, create_model
 
 from disc_model.errors import as_text, require, suggestion, violations
 from disc_model.figures.looks import Options
@@ -47,7 +47,9 @@ class Recorded(NamedTuple):
 
     def broken(self, window: Any) -> str:
         """The rule if a window, or a section, breaks it, else ""."""
-        return "" if isinstance(window, Window) and self.holds(window) else self.rule
+        if isinstance(window, Window) and self.holds(window):
+            return ""
+        return self.rule
 
 
 class Shows(NamedTuple):
@@ -92,27 +94,10 @@ def case_figure(windows: Mapping[str, Any] = NOTHING) -> Shows:
 Case = Annotated[Any, str]
 Cases = Annotated[Any, tuple[str, ...]]
 
-IN_FULL = Recorded("must be a window without an envelope", lambda w: w.envelope is None)
-IN_TIME = Recorded(
-    "must be a window without an envelope, of 1.1 s or more",
-    lambda w: w.envelope is None and w.stop - w.start >= 1.1,
-)
+IN_FULL = Recorded("must be a window without an envelope", lambda w: not w.envelope)
 Samples = Annotated[str, IN_FULL]
-InTime = Annotated[str, IN_TIME]
-Ranges = Annotated[
-    str,
-    Recorded(
-        "must be a window that has an envelope, and two envelopes or more",
-        lambda w: w.envelope is not None and w.count >= 2 * w.envelope,
-    ),
-]
-Either = Annotated[
-    str,
-    Recorded(
-        "must be a window of two samples, or two envelopes, or more",
-        lambda w: w.count >= 2 * (w.envelope or 1),
-    ),
-]
+Ranges = Annotated[str, Recorded("must be a window that has an envelope", lambda w: w.envelope)]
+Either = Annotated[str, Recorded("must be a window")]
 
 
 # ---- Figures
@@ -127,12 +112,14 @@ def known_units(units: dict[str, str]) -> dict[str, str]:
     return units
 
 
-def _joined(caption: Any) -> Any:
-    return " ".join(map(str, caption)) if isinstance(caption, list) else caption
+def _joined(caption: str | list[str]) -> str:
+    if isinstance(caption, str):
+        return caption
+    return " ".join(caption)
 
 
-def _by_key(names: Any) -> Any:
-    return {key_of(x): name for x, name in names.items()} if isinstance(names, dict) else names
+def _by_key(names: dict[Any, Any]) -> Any:
+    return {key_of(x): name for x, name in names.items()}
 
 
 class Kind(Strict):
@@ -151,7 +138,7 @@ class Kind(Strict):
 
     kind: str
     title: str = ""
-    caption: Annotated[str, BeforeValidator(_joined, json_schema_input_type=str | list[str])] = ""
+    caption: Annotated[str | list[str], AfterValidator(_joined)] = ""
     section: str = ""
     units: Annotated[dict[str, str], AfterValidator(known_units)] = Field({})
     width: Literal["column", "page"] | None = None
@@ -176,7 +163,7 @@ class Plot(Kind):
     study: str = ""
     overlays: dict[str, str] = Field({})
     at: Annotated[dict[str, Finite | str], Unit(UNITS)] = Field({})
-    names: Annotated[dict[str, str], BeforeValidator(_by_key)] = Field({})
+    names: Annotated[dict[Any, str], AfterValidator(_by_key)] = Field({})
 
     @property
     def axes(self) -> dict[str, str]:
@@ -190,7 +177,8 @@ class Plot(Kind):
         dims : values along the dimensions of the study
         variables : the same of each of its variables, with the dimensions of its own
         """
-        own, name = dims, getattr(self, "variable", None)
+        own = dims
+        name = getattr(self, "variable", None)
         if name is not None:
             rule = f"unknown variable{suggestion(name, variables)}"
             faults = violations((name in variables, "variable", name, rule))
@@ -279,11 +267,14 @@ class CasePlot(Kind):
         none = f"no such case (known: {', '.join(cases) or 'none'})"
         faults: list[Any] = []
         for case in self.cases:
-            faults += violations((case in cases, "case", case, none))
-            recorded: Any = cases.get(case)
-            for key, name, wanted in windows if recorded is not None else ():
-                lacking = f"is not recorded by case {case}{suggestion(name, recorded)}"
-                rule = wanted.broken(recorded[name]) if name in recorded else lacking
+            recorded = cases.get(case)
+            if recorded is None:
+                faults += violations((case in cases, "case", case, none))
+                continue
+            for key, name, wanted in windows:
+                rule = f"is not recorded by case {case}{suggestion(name, recorded)}"
+                if name in recorded:
+                    rule = wanted.broken(recorded[name])
                 faults += violations((not rule, key, name, rule))
         return faults
 
@@ -296,9 +287,13 @@ def kind_of_function(function: Function, name: str) -> type[Kind]:
     hints = get_type_hints(function, include_extras=True)
     first, *parameters = inspect.signature(function).parameters.values()
     fields: Options = {"kind": (Literal[name], name)}
-    roles, rules, further = {}, {}, []
+    roles = {}
+    rules = {}
+    further = []
     for parameter in parameters:
-        key, hint, default = parameter.name, hints[parameter.name], parameter.default
+        key = parameter.name
+        hint = hints[parameter.name]
+        default = parameter.default
         mark = next(iter(getattr(hint, "__metadata__", ())), None)
         if isinstance(mark, Role):
             roles[key] = mark
@@ -306,15 +301,20 @@ def kind_of_function(function: Function, name: str) -> type[Kind]:
         if isinstance(mark, Recorded):
             rules[key] = mark
         elif mark in (str, tuple[str, ...]):
-            hint, default = mark, default or mark()
+            hint = mark
+            default = default or mark()
             further.append(key)
         fields[key] = (hint, ... if default is parameter.empty else default)
     base: Any = Plot if first.name == "study" else CasePlot
     doc = inspect.getdoc(function)
     created = create_model(name, __base__=base, __doc__=doc, __module__=__name__, **fields)
     model = cast(Any, created)
-    model.function, model.shows = staticmethod(function), vars(function)["shows"]
-    model.keys, model.roles, model.rules, model.further = [*fields][1:], roles, rules, further
+    model.function = staticmethod(function)
+    model.shows = vars(function)["shows"]
+    model.keys = [*fields][1:]
+    model.roles = roles
+    model.rules = rules
+    model.further = further
     return cast(type[Kind], model)
 
 

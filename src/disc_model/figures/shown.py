@@ -1,7 +1,6 @@
 """Datasets as readers see them: in their units, with labels, and flags as words. What draws them
 knows nothing of SI."""
 
-import re
 from collections.abc import Mapping
 from contextlib import suppress
 from typing import Any
@@ -77,15 +76,20 @@ def _shown(x: DataArray, units: Mapping[str, tuple[str, float]]) -> DataArray:
     if x.dtype.kind not in "fiu":
         return x.assign_attrs(attributes)
     known = parameter_of(x)
-    unit, factor = readable(x.attrs.get("units", "")), 1.0
+    unit = readable(x.attrs.get("units", ""))
+    factor = 1.0
     if known:
         attributes["parameter"] = known
-        unit, factor = SHOWN[known].unit, SHOWN[known].factor
+        unit = SHOWN[known].unit
+        factor = SHOWN[known].factor
     elif str(x.name).endswith(("range", "period")) and unit in THOUSANDTHS:
-        unit, factor = THOUSANDTHS[unit], 1e3
+        unit = THOUSANDTHS[unit]
+        factor = 1e3
     unit, factor = units.get(known, (unit, factor))
     attributes.update(units=unit, factor=factor)
-    values = x.values if factor == 1.0 else x.values * factor
+    values = x.values
+    if factor != 1.0:
+        values = values * factor
     plain = DataArray(values, dims=x.dims, name=x.name)
     plain.attrs = attributes
     return plain
@@ -101,8 +105,9 @@ def parameter_of(x: DataArray) -> str:
     if own not in SHOWN or "units" not in x.attrs:
         return ""
     usual = attributes_in_files(own)["units"]
-    has_another = readable(x.attrs["units"]) != readable(usual)
-    return "" if has_another else own
+    if readable(x.attrs["units"]) != readable(usual):
+        return ""
+    return own
 
 
 def si_unit(name: str) -> str:
@@ -115,17 +120,17 @@ def si_unit(name: str) -> str:
 
 def readable(units: str) -> str:
     """A unit of CF as text: ``N m-2`` is ``N/m²``, and ``1`` is nothing."""
-    raised = {"": "", "2": "²", "3": "³"}
-    above, below = "", ""
-    for part in units.split():
-        name, sign, power = re.fullmatch(r"(.*?)(-?)(\d?)", part).groups()  # type: ignore[union-attr]
-        if sign:
-            below += f"/{name}{raised.get('' if power == '1' else power, power)}"
-        else:
-            above += f" {name}{raised.get(power, power)}" if name else ""
-    if below and not above:
-        above = "1"
-    return (above + below).strip()
+    above = []
+    below = []
+    for part in units.replace("2", "²").replace("3", "³").split():
+        name, _, power = part.partition("-")
+        if power:
+            below.append(name + power.removeprefix("1"))
+        elif name != "1":
+            above.append(name)
+    if below:
+        above = above or ["1"]
+    return "/".join([" ".join(above), *below])
 
 
 def name_of(x: DataArray) -> str:
@@ -134,14 +139,16 @@ def name_of(x: DataArray) -> str:
     if known:
         return typeset(f"{SHOWN[known].name} {SHOWN[known].symbol}".strip())
     said = str(x.attrs.get("long_name", x.name)).replace("_", " ")
-    return said if len(said) == 1 else said[:1].upper() + said[1:]
+    if len(said) > 1:
+        return said[0].upper() + said[1:]
+    return said
 
 
 def label(x: DataArray) -> str:
     """The label of an axis or of a bar of colours, of an array as it is shown."""
     unit = x.attrs.get("units", "").replace(" ", "\u00a0")  # no line ends within it
     name = str(x.attrs.get("long_name", x.name))
-    return f"{name} ({unit})" if unit else name
+    return f"{name} ({unit})".removesuffix(" ()")
 
 
 def value_text(x: DataArray) -> str:
@@ -149,19 +156,15 @@ def value_text(x: DataArray) -> str:
     coordinate, if that has it."""
     value = x.item()
     names: Mapping[str, str] = x.attrs.get("names", {})
-    factor = 1 if isinstance(value, str) else x.attrs.get("factor", 1.0)
-    stated = key_of(value if factor == 1 else value / factor)  # as a study file has it
-    if stated in names:
-        return names[stated]
-    if isinstance(value, str):
-        return _word_text(str(x.name), value)
     if not isinstance(value, int | float):
-        return str(value)
+        return names.get(key_of(str(value)), _word_text(str(x.name), str(value)))
     known = parameter_of(x)
     symbol = str(x.attrs.get("long_name", x.name))
     if known:
         symbol = SHOWN[known].symbol or SHOWN[known].name
-    return f"{typeset(symbol)} = {with_unit(f'{value:.5g}', x.attrs.get('units', ''))}"
+    stated = key_of(value / x.attrs.get("factor", 1.0))  # as a study file has it
+    text = f"{typeset(symbol)} = {with_unit(f'{value:.5g}', x.attrs.get('units', ''))}"
+    return names.get(stated, text)
 
 
 def _word_text(name: str, word: str) -> str:

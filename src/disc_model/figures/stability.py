@@ -9,7 +9,6 @@ import numpy as np
 from cmcrameri import cm
 from matplotlib.axes import Axes
 from matplotlib.patches import Circle
-from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 from xarray import DataArray, Dataset
 
@@ -145,17 +144,20 @@ def draw_exponents(ax: Axes, found: Any, **look: Any) -> None:
     own = wished(look, linestyle="", label=case_text(found.parameters))
     unsure = values.copy(data=~found.converged)
     lines(ax, values, "Number", doubtful=unsure, doubt="not converged", **own)
-    x, finite = values["Number"], values.where(np.isfinite(values))
+    x = values["Number"]
+    finite = values.where(np.isfinite(values))
     colour = ax.lines[-1].get_color()
     ax.errorbar(x, finite, found.errors, fmt="none", capsize=3, ecolor=colour)
     ax.axhline(0, color=GREY, lw=0.6, zorder=0)
-    ax.xaxis.set_major_locator(MaxNLocator(integer=True))
+    ax.locator_params("x", integer=True)
 
 
 def draw_critical(ax: Axes, found: Any, **look: Any) -> None:
     """Draw the growth rate of a motion over a parameter, shaded where it is unstable."""
     data = shown(found.to_dataset())
-    x, rate, sliding = data[found.name], data["growth_rate"], data["sliding_growth_rate"]
+    x = data[found.name]
+    rate = data["growth_rate"]
+    sliding = data["sliding_growth_rate"]
     own = wished(look, label=case_text(found.parameters, found.name), marker=".")
     lines(ax, rate, found.name, missing="", **own)
     colour = ax.lines[-1].get_color()
@@ -177,9 +179,11 @@ def draw_curves(ax: Axes, curves: Any, **look: Any) -> None:
     colour = named.get_color()
     for curve in curves:
         x, y = map(column, curves.bounds, curve.values.T)
-        dashes, name = "-", "_nolegend_"
+        dashes = "-"
+        name = "_nolegend_"
         if curve.kind == "fold":
-            dashes, name = "--", once(ax, "dashed: the cycle ends in a fold")
+            dashes = "--"
+            name = once(ax, "dashed: the cycle ends in a fold")
         ax.plot(x, y, color=colour, lw=THIN, ls=dashes, label=name)
         stable = curve.adjoins_stable_cycle[:-1] & curve.adjoins_stable_cycle[1:]
         thicken(ax, x, y, stable, "thick: a stable cycle adjoins", color=colour, ls=dashes)

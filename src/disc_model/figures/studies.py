@@ -1,14 +1,11 @@
 """Figures of studies over parameters: each a few lines over `draw`."""
 
-from collections.abc import Sequence
-from itertools import product
 from typing import Annotated, Any, Literal
 
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import PercentFormatter
 from xarray import DataArray, Dataset
 
 from disc_model.analysis.classify import share
@@ -20,6 +17,7 @@ from disc_model.figures.draw import (
     NOTE,
     PAGE,
     UPPER,
+    around,
     bar_of,
     cells,
     class_map,
@@ -63,6 +61,7 @@ BORDERS = {"neutral": ("cycle loses stability", "-"), "fold": ("stable cycle end
 """What curves are, and their lines."""
 OF_CYCLES = ("growth_rate", "cycle_growth_rate")  # whose neighbours may be of another cycle
 SIGN = "growth rate changes its sign"
+THIN = "thin: narrow, or of another cycle"
 MERGED = "growing, or another cycle"
 LINE_COLOURS = (BLACK, ORANGE, BLUE, GREEN)
 MARKS: list[Any] = [
@@ -82,8 +81,7 @@ SHADE = "#e4e4e4"
 def row(count: int, height: float) -> tuple[Figure, list[Axes]]:
     """A figure with a row of panels that have the same scales."""
     width = COLUMN if count == 1 else PAGE
-    names = [str(i) for i in range(count)]
-    figure, axes = panels([names], width, height, sharex=True, sharey=True)
+    figure, axes = panels([[*range(count)]], width, height, sharex=True, sharey=True)
     return figure, [*axes.values()]
 
 
@@ -98,7 +96,10 @@ def heat_map(study: Dataset, variable: str, x: str, y: str, by: str = NORM) -> F
     scale = colours_of(study[variable])
     for ax, (title, part) in zip(axes, parts, strict=True):
         ax.set_title(title)
-        mesh = draw_map(ax, part.transpose(y, x, ...), variable, **scale)
+        plane = part.transpose(y, x, ...)
+        mesh = draw_map(ax, plane, variable, **scale)
+        if is_rate(plane[variable]):
+            borders(ax, None, plane[variable])
     if mesh is not None:
         bar_of(figure, axes, mesh, study[variable])
     return figure
@@ -107,7 +108,8 @@ def heat_map(study: Dataset, variable: str, x: str, y: str, by: str = NORM) -> F
 def draw_map(ax: Axes, data: Dataset, variable: str, **colours: Any) -> Any:
     """Draw classes, or numbers in colours, over two dimensions (up, across), with circles where they
     are in doubt; returns the mesh of numbers, for a bar."""
-    plane, doubt = data[variable], in_doubt(data, variable)
+    plane = data[variable]
+    doubt = in_doubt(data, variable)
     if is_words(plane):
         class_map(ax, plane)
         unresolved(ax, plane)
@@ -116,9 +118,7 @@ def draw_map(ax: Axes, data: Dataset, variable: str, **colours: Any) -> Any:
     mesh = number_map(ax, plane, why, **colours)
     if is_rate(plane):
         mark_stable(ax, plane, why)
-        borders([ax], None, plane)
-    if doubt is not None:
-        cells(ax, plane, doubt, Look(f"circles: {doubt.attrs['long_name']}", "none", "oo"))
+    cells(ax, plane, doubt, Look(f"circles: {doubt.attrs['long_name']}", "none", "oo"))
     return mesh
 
 
@@ -156,25 +156,27 @@ def draw_lines(
 
     joined : whether lines join the points, which are not paired values
     """
-    array, doubt = data[variable], in_doubt(data, variable)
+    array = data[variable]
+    doubt = in_doubt(data, variable)
     by = next((str(dim) for dim in array.dims if dim != x), "")
-    usual: Options = {} if joined else {"linestyle": ""}
+    usual: Options = {"doubt": doubt.attrs["long_name"]}
+    if not joined:
+        usual["linestyle"] = ""
     if not by:
         chosen = [each for each in array.coords.values() if each.ndim == 0 and parameter_of(each)]
         usual["label"] = ", ".join(map(value_text, chosen))
     elif by not in array.coords or array.sizes[by] > MOST_VALUES:
         array = flattened(array, x)
-        doubt = None if doubt is None else flattened(doubt, x)
+        doubt = flattened(doubt, x)
         usual |= {"marker": ".", "linestyle": "", "missing": ""}
-    if doubt is not None:
-        usual["doubt"] = doubt.attrs["long_name"]
     of_cycle = variable in OF_CYCLES and data.attrs.get("function") != "steady_sliding"
-    jump = 1.0 if of_cycle else np.inf
-    lines(ax, array, x, doubtful=doubt, jump=jump, **wished(look, **usual))
+    if of_cycle:
+        usual["jump"] = 1.0
+    lines(ax, array, x, doubtful=doubt, **wished(look, **usual))
     if of_cycle:
         rate_axis(ax)
     elif is_rate(array):
-        ax.axhline(0, color=GREY, lw=0.5, zorder=0)
+        ax.axhline(0, color=GREY, zorder=0)
 
 
 def flattened(array: DataArray, x: str) -> DataArray:
@@ -211,16 +213,17 @@ DOUBTS: Options = {
 reason."""
 
 
-def in_doubt(data: Dataset, variable: str) -> DataArray | None:
-    """Where a value is not known to be final, with the reason as `long_name`."""
+def in_doubt(data: Dataset, variable: str) -> DataArray:
+    """Where a value is not known to be final, with the reason as `long_name`, "" if there is none."""
     x = data[variable]
-    for name, (ends, doubts, why) in DOUBTS.items():
-        if name in data and name != variable and variable.endswith(ends):
-            unsure = data[name].astype(str).isin(doubts)
-            if {*unsure.dims} <= {*x.dims}:
-                whole: DataArray = unsure.broadcast_like(x).transpose(*x.dims)
-                return whole.assign_attrs(long_name=why)
-    return None
+    unsure = xr.zeros_like(x, dtype=bool)
+    why = ""
+    for name, (ends, doubts, reason) in DOUBTS.items():
+        known = name in data and name != variable and {*data[name].dims} <= {*x.dims}
+        if known and not why and variable.endswith(ends):
+            unsure = unsure | data[name].astype(str).isin(doubts)
+            why = reason
+    return unsure.transpose(*x.dims).assign_attrs(long_name=why)
 
 
 # ---- Maps of outcomes
@@ -254,25 +257,25 @@ def region_map(
     """Outcomes over two parameters, with cases of the paper, and the growth rate of the cycle below,
     for each value of a third one."""
     parts = each_value(study, by)
-    above, below = ([f"{name} {i}" for i in range(len(parts))] for name in ("outcome", "rate"))
-    layout = [above, below] if len(parts) > 1 else [above + below]
-    figure, axes = panels(layout, PAGE, 2.4, sharex=True, sharey=True)
+    layout = np.arange(2 * len(parts)).reshape(2, -1)
+    if len(parts) == 1:
+        layout = layout.T
+    figure, axes = panels(layout.tolist(), PAGE, 2.4, sharex=True, sharey=True)
+    outcomes, rates = np.split(np.array([*axes.values()]), 2)
     scale = growth_colours(study["growth_rate"])
-    for i, (title, part) in enumerate(parts):
-        outcome, growth = axes[above[i]], axes[below[i]]
+    for outcome, growth, (title, part) in zip(outcomes, rates, parts, strict=True):
         plane = part.transpose(y, x, ...)
-        rate = plane["growth_rate"]
-        draw_map(outcome, plane, "outcome")
-        outcome.set_title(titled(title, study))
-        mesh = number_map(growth, rate, plane["cycle"], **scale)
-        mark_stable(growth, rate, plane["cycle"])
         beside = curves
         if curves is not None and by in curves.dims:
             beside = curves.sel({by: part[by].item()})
-        borders([outcome, growth], beside, rate)
+        outcome.set_title(titled(title, study))
+        draw_map(outcome, plane, "outcome")
+        mesh = draw_map(growth, plane, "growth_rate", **scale)
+        for ax in (outcome, growth):
+            borders(ax, beside, plane["growth_rate"])
     for name, mark in marks.items():
-        draw_mark(axes[above[0]], name, mark, study[x], study[y])
-    bar_of(figure, [axes[name] for name in below], mesh, study["growth_rate"])
+        draw_mark(outcomes[0], name, mark, study[x], study[y])
+    bar_of(figure, rates, mesh, study["growth_rate"])
     return figure
 
 
@@ -282,37 +285,29 @@ def titled(title: str, study: Dataset) -> str:
     return f"{title}: outcome within {horizon:g} s".removeprefix(": ")
 
 
-def borders(axes: Sequence[Axes], curves: Dataset | None, rate: DataArray) -> None:
-    """Continued curves beside a stable cycle: thin where they do not pass between an area in which the
-    cycle of a map is stable and one beyond, both two cells wide or more, but are of another cycle, or
-    finer than the cells. Without curves, the line at which the rate changes its sign.
+def borders(ax: Axes, curves: Dataset | None, rate: DataArray) -> None:
+    """Where the cycle of a map loses stability or ends: continued curves beside a stable cycle, thin where
+    they do not pass between an area in which the map's is stable and one beyond, both two cells wide or
+    more. Without curves, the line at which the rate changes its sign.
 
     rate : of dimensions (up, across)
     """
+    beside = around(rate < 0) & around(~(rate < 0))
     if curves is None:
-        known = rate.where(around(rate < 0) & around(rate >= 0))
-        for ax in axes:
-            sign_changes(ax, known, SIGN)
+        sign_changes(ax, rate.where(beside), SIGN)
         return
     up, across = (along(curves)[str(dim)] for dim in rate.dims)
-    known = up.notnull() & (curves["adjoins_stable_cycle"] == "yes")
-    filled = zip(rate.dims, (up.fillna(0.0), across.fillna(0.0)), strict=True)
-    beside = (around(rate < 0) & around(~(rate < 0))).sel(dict(filled), method="nearest")
-    for (kind, (name, style)), wide in product(BORDERS.items(), (True, False)):
-        chosen = known & (beside == wide) & (curves["kind"] == kind)
-        part = up.where(chosen).transpose(..., "curve_point")
-        text = name if wide else "thin: narrow, or of another cycle"
-        for ax in axes if part.notnull().any() else ():
-            line = one_line(across, part)
-            ax.plot(*line, style, color=BLACK, lw=1 if wide else 0.4, label=text)
-
-
-def around(area: DataArray) -> DataArray:
-    """An area of a map with the cells beside it, without parts that are one cell wide."""
-    from scipy.ndimage import binary_dilation, binary_opening
-
-    wide = binary_opening(np.pad(area, 1, mode="edge"), np.ones((2, 2)))[1:-1, 1:-1]
-    return area.copy(data=binary_dilation(wide, np.ones((3, 3))))
+    places = zip(rate.dims, (up.fillna(0.0), across.fillna(0.0)), strict=True)
+    wide = beside.sel(dict(places), method="nearest")
+    stable = curves["adjoins_stable_cycle"] == "yes"
+    for kind, (name, style) in BORDERS.items():
+        of_kind = up.where(stable & (curves["kind"] == kind)).transpose(..., "curve_point")
+        for part, width, text in (
+            (of_kind.where(wide), 1.0, name),
+            (of_kind.where(~wide), 0.4, THIN),
+        ):
+            if part.notnull().any():
+                ax.plot(*one_line(across, part), style, color=BLACK, lw=width, label=text)
 
 
 def along(curves: Dataset) -> dict[str, DataArray]:
@@ -321,15 +316,21 @@ def along(curves: Dataset) -> dict[str, DataArray]:
 
 
 def draw_mark(ax: Axes, name: str, mark: Mark, x: DataArray, y: DataArray) -> None:
-    """A case of the paper, in the colour and the shape of what the paper says."""
+    """A case of the paper, in the colour and the shape of what the paper says, with its name within the
+    panel: that of a separation above, and others below, as several may be at one place."""
     at = placed(x, mark.x), placed(y, mark.y)
     shape, size, up, end = SHAPES[mark.paper_outcome]
     look = LOOKS[mark.paper_outcome]
     said: Options = {"mfc": look.face, "mec": BLACK, "clip_on": False}
     ax.plot(*at, shape, ms=size, zorder=20 - size, label=f"paper: {look.label}", **said)
-    side, right = ("right", -6) if at[0] > x.mean() else ("left", 6)
-    if at[1] < y.min() + 0.1 * np.ptp(y.values):
-        up, end = 6, "bottom"
+    if at[1] < y.quantile(0.1):
+        up = 6
+        end = "bottom"
+    right = 6
+    side = "left"
+    if at[0] > x.mean():
+        right = -6
+        side = "right"
     ax.annotate(name, at, (right, up), ha=side, va=end, bbox=BOX, zorder=20, **NOTE)
 
 
@@ -339,8 +340,6 @@ FATES = {
     "separating": ("separation",),
 }
 """Motions, and outcomes that are these; the first has their colour."""
-STABILITIES = {"stable": STABLE.hatch, "unstable": ""}
-"""What linear analysis says, and its hatching."""
 NEUTRAL = 1e-9  # growth rate of steady sliding that is zero but for rounding, 1/s
 
 
@@ -359,13 +358,14 @@ def sliding_outcome(
     stable = linear["largest_growth_rate"] <= NEUTRAL
     both = xr.full_like(outcome, "undecided", dtype=object)
     looks = {}
-    for (fate, outcomes), (word, hatch) in product(FATES.items(), STABILITIES.items()):
-        here = outcome.isin(outcomes) & (stable == (word == "stable"))
-        said = f"sliding {word}, {fate}"
-        both = both.where(~here, said)
-        shares = [f"{100 * float(part.mean()):.0f} %" for _, part in each_value(here, by)]
-        label = f"{said}: {', '.join(shares)}"
-        looks[said] = LOOKS[outcomes[0]]._replace(label=label, hatch=hatch)
+    for fate, outcomes in FATES.items():
+        for word, sign, hatch in (("stable", stable, STABLE.hatch), ("unstable", ~stable, "")):
+            here = outcome.isin(outcomes) & sign
+            said = f"sliding {word}, {fate}"
+            both = both.where(~here, said)
+            shares = [f"{100 * float(part.mean()):.0f} %" for _, part in each_value(here, by)]
+            name = f"{said}: {', '.join(shares)}"
+            looks[said] = LOOKS[outcomes[0]]._replace(label=name, hatch=hatch)
     parts = each_value(both, by)
     figure, axes = row(len(parts), 2.6)
     for ax, (title, part) in zip(axes, parts, strict=True):
@@ -398,9 +398,11 @@ def critical_speed(
     """
     if "horizon" in study.dims:
         study = study.sel(horizon=study["horizon"].max())
-    speeds, loads = study["scan_Omega"], study["N"]
+    speeds = study["scan_Omega"]
+    loads = study["N"]
     figure, axes = row(1 if hysteresis is None else 2, 3.0)
-    first, last = axes[0], axes[-1]
+    first = axes[0]
+    last = axes[-1]
     if cycle is not None:
         plane = cycle.sel(Omega=slice(*speeds[[0, -1]].values)).transpose("N", "Omega", ...)
         behind(first, plane, curves)
@@ -430,7 +432,7 @@ def behind(ax: Axes, plane: Dataset, curves: Dataset | None) -> None:
     folds of a stable cycle that leave the panel through its upper edge."""
     merged = plane["outcome"].where(plane["outcome"] != "other_cycle", "growing")
     class_map(ax, merged, {"growing": LOOKS["growing"]._replace(label=MERGED)})
-    borders([ax], curves, plane["growth_rate"])
+    borders(ax, curves, plane["growth_rate"])
     if curves is None:
         return
     speeds, loads = folds(curves)
@@ -463,12 +465,14 @@ def onsets(ax: Axes, study: Dataset) -> None:
 def sweeps(ax: Axes, sweep: Dataset) -> None:
     """Speeds at which separation begins on the way up and ends on the way down, at each preload; hollow
     where a stay in contact ended before the motion had settled, so that the speed is in doubt."""
-    along, up, down = sweep["sweep_Omega"], sweep["onset_speed"], sweep["offset_speed"]
+    along = sweep["sweep_Omega"]
+    up = sweep["onset_speed"]
+    down = sweep["offset_speed"]
     kept = sweep["separation_rate"] == 0
     unsure = kept & (sweep["sweep_settled"] != "settled")
     last_kept = along.where(kept.sel(direction="down")).max("sweep_Omega")
     ends = down.fillna(along.min())  # without one, separation goes on at the lowest speed
-    ax.hlines(sweep["N"], ends, up, color=BLACK, lw=0.8, label="sweeps")
+    ax.hlines(sweep["N"], ends, up, color=BLACK, label="sweeps")
     for way, speeds, before, name, marker, colour in (
         ("up", up, along < up, "separation begins", "^", RED),
         ("down", down, along == last_kept, "separation ends", "v", BLUE),
@@ -510,7 +514,7 @@ def ramps(study: Dataset, curves: Curves = None) -> Figure:
         limit = float(ends.where(ends <= study["onset_speed"].min()).max())
         if np.isfinite(limit):
             name = f"stable cycle ends (fold), {limit:.2f}"
-            ax.axhline(limit, color=BLACK, lw=0.8, ls="--", label=name)
+            ax.axhline(limit, color=BLACK, ls="--", label=name)
     return figure
 
 
@@ -536,15 +540,10 @@ def escape(study: Dataset, starts: str = "perturbation_u", by: str = "N") -> Fig
         known = part["first_separation"][(part["status"] == "ok").values]
         times = np.sort(known.dropna(starts).values)
         shares = np.arange(times.size + 1) / max(1, known.size)
-        colour, name = LINE_COLOURS[i % 4], f"{title}: {counted(known.notnull())} starts"
-        ax.step(
-            [0, *times, horizon],
-            [*shares, shares[-1]],
-            DASHES[i % 3],
-            color=colour,
-            label=name,
-            where="post",
-        )
+        colour = LINE_COLOURS[i % 4]
+        name = f"{title}: {counted(known.notnull())} starts"
+        look: Options = {"color": colour, "label": name, "where": "post"}
+        ax.step([0, *times, horizon], [*shares, shares[-1]], DASHES[i % 3], **look)
         end = horizon * (1.02 + 0.02 * i)
         _, low, high = share(times.size, known.size)
         ax.vlines(end, low, high, colour, lw=3, label="95 % confidence")
@@ -566,7 +565,8 @@ def late_range(study: Dataset, thickness: Positive) -> Figure:
     thickness : of the disc, m: plate theory is not linear for larger ranges
     """
     height = study["u_max"].assign_attrs(long_name="Range of the slider's height")
-    late, limits = height.copy(data=height - study["u_min"]), lost_contact(study)
+    late = height.copy(data=height - study["u_min"])
+    limits = lost_contact(study)
     apart = late.where(study["outcome"] == "separation").sel(contact="unilateral")
     lost = f"R, at which contact is lost; separating: {extent(apart / limits)} R"
     data = study.assign(late=late, unsure=~study["outcome"].isin(SURE))
@@ -590,7 +590,7 @@ def late_range(study: Dataset, thickness: Positive) -> Figure:
     axes["late"].set_yscale("log")
     if "surface_speed" in axes:
         axes["surface_speed"].set_title("above 1, friction reverses")
-        axes["surface_speed"].axhline(1, color=GREY, lw=0.6, zorder=0)
+        axes["surface_speed"].axhline(1, color=GREY, zorder=0)
     return figure
 
 
@@ -623,7 +623,9 @@ def range_law(study: Dataset, set_apart: dict[str, Finite] = NOTHING) -> Figure:
     """
     data = study.stack(motion=[*study["deviation"].dims], create_index=False)
     data = data.isel(motion=data["deviation"].notnull().values)
-    excess, apart, range_ = data["deviation"], data["separation_fraction"], data["pinned_range"]
+    excess = data["deviation"]
+    apart = data["separation_fraction"]
+    range_ = data["pinned_range"]
     single = np.minimum(data["vibration_share"], data["force_share"]) >= 0.95
     inside = abs(excess) <= BAND
     band = f"within 5 %: {counted(inside[single])} filled, {counted(inside[~single])} hollow"
@@ -641,7 +643,7 @@ def range_law(study: Dataset, set_apart: dict[str, Finite] = NOTHING) -> Figure:
             ax.plot(x, here.where(single), label=name, **look)
             mark_points(ax, x, here.where(~single), HOLLOW, **look)
         ax.axhspan(-BAND, BAND, color=SHADE, zorder=0, label=band)
-        ax.yaxis.set_major_formatter(PercentFormatter(1, 0))
+        ax.yaxis.set_major_formatter("{x:.0%}")
         ax.set_ylabel("Excess of the range over R")
     times = np.linspace(0, np.max(apart.values, initial=0.01))
     flights = np.vectorize(excess_of_flights)(times)
@@ -671,7 +673,7 @@ def sensitivity(study: Dataset) -> Figure:
     for i, ax in enumerate(axes):
         draw_thirds(ax, thirds.isel(case=i), rows)
         overall = float(cases["probability_unstable"][i])
-        ax.axvline(overall, color=BLACK, ls="--", lw=0.8, label=name)
+        ax.axvline(overall, color=BLACK, ls="--", label=name)
         along = [each[i] for each in cases.coords.values() if each.dims == ("case",)]
         ax.set_title(", ".join(map(value_text, along)))
         ax.set(xlabel="Probability of instability", xlim=(-0.03, 1.03))
@@ -695,8 +697,9 @@ def thirds_of(cases: Dataset) -> Dataset:
 
 def draw_thirds(ax: Axes, thirds: Dataset, rows: Any) -> None:
     """A row for each parameter, with both shares, their intervals, and a line between them."""
-    ax.hlines(rows, *thirds["share"].values, color=GREY, lw=0.8)
+    ax.hlines(rows, *thirds["share"].values, color=GREY)
     for i, (name, face) in enumerate((("lowest", "white"), ("highest", BLUE))):
-        one, up = thirds.isel(third=i), rows + 0.24 * i - 0.12
-        ax.hlines(up, one["low"], one["high"], color=BLUE, lw=0.8, label="95 % interval")
+        one = thirds.isel(third=i)
+        up = rows + 0.24 * i - 0.12
+        ax.hlines(up, one["low"], one["high"], color=BLUE, label="95 % interval")
         ax.plot(one["share"], up, "o", color=BLUE, mfc=face, label=f"{name} third of its values")

@@ -61,8 +61,9 @@ class Interval(Strict):
     def _ordered(self) -> Self:
         values = dict(self)
         start = values["start"]
-        end = "end" if "end" in values else "stop"
-        require((start < values[end], "start", start, f"must be < {end}={as_text(values[end])}"))
+        [name] = {"end", "stop"} & values.keys()
+        rule = f"must be < {name}={as_text(values[name])}"
+        require((start < values[name], "start", start, rule))
         return self
 
 
@@ -89,8 +90,12 @@ class Span(Interval):
     def ends(self, start: float, t_end: float) -> tuple[float, float]:
         """Absolute times of its ends, s, for a run from ``start`` to ``t_end``, even if they are
         not within the run."""
-        first = self.start if self.last is None else max(t_end - self.last, start)
-        return first, self.stop if self.stop < math.inf else self._end(first, t_end)
+        first = self.start
+        if self.last is not None:
+            first = max(t_end - self.last, start)
+        if self.stop < math.inf:
+            return first, self.stop
+        return first, self._end(first, t_end)
 
     def _end(self, first: float, t_end: float) -> float:
         return t_end
@@ -134,17 +139,11 @@ class Window(Span):
             return t_end
         return min(max(t_end - 0.5 / self.rate, first + 0.25 / self.rate), t_end)
 
-    @property
-    def count(self) -> int:
-        """Number of samples, before they are combined to an envelope."""
-        return self._times(self.start, self.stop).number
-
     def grid(self, p: Parameters, start: float, t_end: float) -> SampleTimes:
-        """When samples are taken in a run of the case from ``start`` to ``t_end``, s."""
-        return self._times(max(self.start, start), min(self.stop, t_end))._replace(end=t_end)
-
-    def _times(self, begin: float, end: float) -> SampleTimes:
-        return _sample_times(self.start, 1 / self.rate, (begin, end), self.theta, end)
+        """When samples are taken in a run of the case from ``start`` to ``t_end``, s, before they are
+        combined to an envelope."""
+        span = (max(self.start, start), min(self.stop, t_end))
+        return _sample_times(self.start, 1 / self.rate, span, self.theta, t_end)
 
 
 class Poincare(Interval):

@@ -49,14 +49,12 @@ BIN_ROW = ("time", *(f"{name}_{end}" for name in FOLDED for end in ("min", "max"
 """Columns of a window with an envelope."""
 STATES = ("final_state", "initial_state")
 CYCLES = 4  # of stick and slip that pictures show of the end of a run
-SEPARATIONS = 4 * CYCLES  # most of them that are shown of the end of a run
 SHORTEST = 0.1  # s, of the end of a run that is shown where nothing repeats within a second
 BINS = 600  # of the envelope of a run
 RATE = 4000.0  # samples of the envelope per second, at least
-PER_PERIOD = (
-    16  # samples for a spectrum of the highest mode: what is beyond its eighth multiple is weak
-)
+PER_PERIOD = 16  # samples for a spectrum, of the highest mode: beyond its eighth multiple is little
 FINE = 4000  # samples of the last cycles
+WRITERS = {".gif": "pillow", ".mp4": "ffmpeg"}  # of films by the suffixes of files
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -302,7 +300,9 @@ class Result(Summarised, EqualByValue):
     def __repr__(self) -> str:
         p = self.parameters
         first = self.first_separation
-        lost = "no separation" if math.isnan(first) else f"first separation at {first:.6f} s"
+        lost = "no separation"
+        if first >= 0:
+            lost = f"first separation at {first:.6f} s"
         windows = counted(len(self.samples), "window")
         ended = f"{self.status.value} at {self.final_state.time:.9g} s"
         events = self.statistics["n_events"]
@@ -313,7 +313,7 @@ class Result(Summarised, EqualByValue):
         s = self.statistics
         yield "case", values_text(dict(self.parameters))
         yield "status", self.message or self.status.value
-        yield "advice", "" if self.status.complete else self.status.advice
+        yield "advice", self.status.advice * (not self.status.complete)
         yield "first separation", number_text(self.first_separation, "s", 9) or "none"
         for phase in PHASES:
             yield f"time in {phase}", f"{s[f'time_{phase}']:.6g} s"
@@ -372,10 +372,11 @@ class Result(Summarised, EqualByValue):
         """
         pictures = drawings()
         if windows is None:
-            names = ["run", "end"] if self._span > 1.5 * self._last_cycles else ["end"]
+            names = ["run", "end"]
             return pictures.history(self._again(*names), names, variables, units)
-        several = [windows] if isinstance(windows, str) else windows
-        return pictures.history(self.to_tree(), several, variables, units)
+        if isinstance(windows, str):
+            windows = [windows]
+        return pictures.history(self.to_tree(), windows, variables, units)
 
     def plot_phase_portrait(
         self,
@@ -492,7 +493,7 @@ class Result(Summarised, EqualByValue):
         pictures = drawings()
         # what cannot be written is refused before anything is computed
         file = Path(path or "film.gif")
-        known = file.suffix in (".gif", ".mp4") and file.absolute().parent.is_dir()
+        known = file.suffix in WRITERS and file.absolute().parent.is_dir()
         rule = "must end in .gif or .mp4, in a folder that exists; a window is given by window="
         require(
             (known, "path", str(path), rule),
@@ -501,17 +502,12 @@ class Result(Summarised, EqualByValue):
         )
         case, name = self._shown(window, "end")
         time = pictures.window_of(case, name)["time"]
-        states = snapshots(
-            self.parameters,
-            np.linspace(float(time[0]), float(time[-1]), frames),
-            tol=self.tol,
-            initial_state=self.initial_state,
-            ramps=self.ramps,
-        )
+        times = np.linspace(float(time[0]), float(time[-1]), frames)
+        same: Any = {name: getattr(self, name) for name in ("tol", "ramps", "initial_state")}
+        states = snapshots(self.parameters, times, **same)
         made = pictures.film(self.parameters, states, case, name)
         if path is not None:
-            writer = "pillow" if file.suffix == ".gif" else "ffmpeg"
-            made.save(path, writer=writer, fps=fps, dpi=100)
+            made.save(path, writer=WRITERS[file.suffix], fps=fps, dpi=100)
         return made
 
     def _shown(self, window: str | None, otherwise: str) -> tuple[xr.DataTree, str]:
@@ -529,13 +525,11 @@ class Result(Summarised, EqualByValue):
     @property
     def _last_cycles(self) -> float:
         """The length of the last cycles of the run, s: from a release of stick on."""
-        end = float(self.final_state.time)
-        lengths = [self._span]
-        for kind, number in ((record.STICK_TO_SLIP, CYCLES), (record.LOSS_OF_CONTACT, SEPARATIONS)):
-            times = self.event_rows[self.event_rows[:, 1] == kind, 0]
-            length = end - float(times[-1 - number]) if len(times) > number else SHORTEST
-            lengths.append(length if length < 1.0 else SHORTEST)
-        return min(lengths)
+        releases = self.event_rows[self.event_rows[:, 1] == record.STICK_TO_SLIP, 0]
+        lengths = self.final_state.time - releases[-1 - CYCLES :]
+        if len(lengths) <= CYCLES or lengths[0] >= 1.0:
+            return min(SHORTEST, self._span)
+        return min(float(lengths[0]), self._span)
 
     def _again(self, *names: str) -> xr.DataTree:
         """Simulate the run once more, and return it with windows that pictures show: "run" (an envelope of
@@ -551,20 +545,12 @@ class Result(Summarised, EqualByValue):
         windows: Windows = {
             "run": Window(start=end - self._span, rate=rate, envelope=bins),
             "end": Window(start=end - cycles, rate=FINE / cycles),
-            "late": Window(
-                start=end - min(8.0, self._span / 2), rate=max(RATE, PER_PERIOD * highest)
-            ),
-            "poincare": Poincare(start=end - self._span),
+            "late": Window(last=min(8.0, self._span / 2), rate=max(RATE, PER_PERIOD * highest)),
+            "poincare": Poincare(),
         }
-        again = simulate(
-            self.parameters,
-            end,
-            {name: windows[name] for name in names},
-            tol=self.tol,
-            ramps=self.ramps,
-            initial_state=self.initial_state,
-        )
-        return again.to_tree()
+        asked = {name: windows[name] for name in names}
+        same: Any = {name: getattr(self, name) for name in ("tol", "ramps", "initial_state")}
+        return simulate(self.parameters, end, asked, **same).to_tree()
 
 
 def _state_of(stored: Mapping[str, Any]) -> State:

@@ -123,7 +123,7 @@ class Run:
                 self.samples[name] = Samples(grid.number, getattr(window, "envelope", None) or 1)
             except (MemoryError, ValueError) as error:
                 raise ParameterError(Fault(("windows", name), "", f"{error}: too many")) from None
-        capacity = BUFFER if grids else 0
+        capacity = BUFFER * bool(grids)
         return record.RunBuffers(
             np.zeros(record.N_COUNTERS, np.int64),
             np.zeros(3),
@@ -145,13 +145,18 @@ class Run:
             # twenty for each radian of the highest mode, far more than any published case takes
             most = 10_000 + 20 * (self.t_end - start) / model.unit
 
-        stops = any(ramp.parameter == "Omega" and ramp.to == 0 for ramp in request.ramps)
         compliant = request.case.contact_compliance != 0
-        tolerance = states.series_tolerance(request.tol, compliant) / (STOPPING if stops else 1.0)
+        tolerance = states.series_tolerance(request.tol, compliant)
+        if any(ramp.parameter == "Omega" and ramp.to == 0 for ramp in request.ramps):
+            tolerance /= STOPPING
 
         # pauses serve Ctrl-C; there are fewer steps between them where a step costs
         # more. A compliant contact takes about four times as many steps per second
-        step_cost = blocks_of(model) * (6 if execution.audit_every_step else 1)
+        step_cost = blocks_of(model)
+        audit_every = 256
+        if execution.audit_every_step:
+            step_cost = 6 * step_cost
+            audit_every = 1
         return loop.Limits(
             order=order,
             tolerance=tolerance,
@@ -159,7 +164,7 @@ class Run:
             may_separate=request.stop_at is None,
             max_steps=int(min(most, MOST_STEPS)),
             pause_after=max(1, STEPS_PER_PAUSE // step_cost),
-            audit_every=1 if execution.audit_every_step else 256,
+            audit_every=audit_every,
         )
 
     def _enter(self, index: int) -> None:
@@ -226,7 +231,7 @@ class Run:
         counters[record.EVENT_ROWS] = counters[record.SAMPLE_ROWS] = 0
         if counters[record.SEPARATIONS] > 0 and math.isnan(self.first_separation):
             self.first_separation = events[events[:, 1] == record.LOSS_OF_CONTACT][0, 0].item()
-        self.events.append(events.copy() if self.request.events else events[:0])
+        self.events.append(events[: len(events) * self.request.events].copy())
         for i, samples in enumerate(self.samples.values()):
             samples.add(rows[rows[:, 0] == i, 1:])
 
@@ -271,21 +276,25 @@ class Run:
         total = self.buffers.audit.tolist()
         times = zip(PHASES, self.buffers.phase_times.tolist(), strict=True)
         # energies, which need the sums over every step, but for the worst of the audited ones
-        every_step = self.request.execution.audit_every_step
-        residuals = {
-            f"energy_residual_{name}": abs(total[residual])
-            / (total[scale] + total[turnover] or 1.0)
-            for name, (residual, scale, turnover) in BALANCES.items()
-        }
+        residuals = dict.fromkeys(map("energy_residual_{}".format, BALANCES), math.nan)
+        worst = surface = math.nan
+        if self.request.execution.audit_every_step:
+            for name, (residual, scale, turnover) in BALANCES.items():
+                size = total[scale] + total[turnover] or 1.0
+                residuals[f"energy_residual_{name}"] = abs(total[residual]) / size
+        if total[audit.STEPS]:
+            worst = total[audit.WORST]
+        if self.model.has_moving_surface:
+            surface = total[audit.SURFACE]
         return {
             "steps": count[record.STEPS],
             "n_events": count[record.EVENTS],
             "n_separations": count[record.SEPARATIONS],
             **{f"time_{phase}": time for phase, time in times},
-            "energy_residual": total[audit.WORST] if total[audit.STEPS] else math.nan,
-            **(residuals if every_step else dict.fromkeys(residuals, math.nan)),
+            "energy_residual": worst,
+            **residuals,
             "audited_steps": int(total[audit.STEPS]),
-            "surface_speed": total[audit.SURFACE] if self.model.has_moving_surface else math.nan,
+            "surface_speed": surface,
             "wall_time": self.wall_time,
         }
 
@@ -295,7 +304,7 @@ class Samples:
     some are filled."""
 
     def __init__(self, count: int, fold: int) -> None:
-        self.names = BIN_ROW if fold > 1 else SAMPLE_ROW
+        self.names = (SAMPLE_ROW, BIN_ROW)[fold > 1]
         self.columns = np.empty((len(self.names), count // fold))
         self.fold = fold
         self.filled = 0

@@ -38,9 +38,8 @@ MODAL = ("a", "b", "alpha", "beta")
 """Names of the variables of a state with one value a mode."""
 PLAIN = ("time", "time_low", "psi", "f", "u", "u_velocity", "surface_turn")
 """Names of its scalars."""
-SAME_HEIGHT = (
-    1e-9  # relative to the disc's deflection: far above rounding, far below any intended difference
-)
+# relative to the disc's deflection: far above rounding, far below any intended difference
+SAME_HEIGHT = 1e-9
 INSIDE = 1e-5  # likewise, by which errors of the loosest series may put a slider into the disc
 SAME_SPEED = 1e-9  # relative to the drive's: a slip by less against its direction is rounding too
 
@@ -125,8 +124,9 @@ class State(EqualByValue):
     def slider_angle(self, case: Parameters) -> float:
         """Angle of the slider on the disc, rad, from the place where it was at the time 0: that of
         the drive point, less psi."""
-        drive = case.Omega * self.time if self.drive_angle is None else self.drive_angle
-        return drive - self.psi
+        if self.drive_angle is None:
+            return case.Omega * self.time - self.psi
+        return self.drive_angle - self.psi
 
     def material_angle(self, case: Parameters) -> float:
         """Angle on the disc of the material point under the slider, rad, about which modal
@@ -160,8 +160,10 @@ def perturb(
         "f": state.f + f,
     }
     if f and state.phase != "separation":
-        rate = f + (slip_rate(p, state) if state.phase == "slip" else 0.0)
-        changes |= {"phase": "slip" if rate else "stick", "direction": int(np.sign(rate))}
+        rate = f
+        if state.phase == "slip":
+            rate += slip_rate(p, state)
+        changes |= {"phase": ("stick", "slip")[bool(rate)], "direction": int(np.sign(rate))}
     return state.replace(**changes)
 
 
@@ -182,20 +184,23 @@ def transfer_state(p: Parameters, state: State) -> State:
     modes = mode_arrays(p)
     if len(modes.psi) != len(state.a):
         return state.replace(time=0.0)
-    known = state.mode_amplitudes
-    more = modes.psi - (modes.psi if known is None else known)
-    touches = state.phase != "separation" and p.contact_compliance == 0
+    more = np.zeros(len(modes.psi))
+    if state.mode_amplitudes is not None:
+        more = modes.psi - state.mode_amplitudes
+    u = state.u + more @ state.a
+    f = state.f
+    direction = state.direction
+    if state.phase != "separation" and p.contact_compliance == 0:
+        u = modes.psi @ state.a
     surface = surface_rate(p, state)
-    f = surface if state.phase == "stick" else state.f
-    rate = f - surface
+    if state.phase == "stick":
+        f = surface
+    elif state.phase == "slip" and f != surface:
+        direction = int(np.sign(f - surface))
     slope = more @ (modes.diameters * state.b)
+    velocity = state.u_velocity + more @ state.alpha + (f - surface) * slope
     return state.replace(
-        time=0.0,
-        f=f,
-        direction=int(np.sign(rate)) if state.phase == "slip" and rate else state.direction,
-        u=modes.psi @ state.a if touches else state.u + more @ state.a,
-        u_velocity=state.u_velocity + more @ state.alpha + rate * slope,
-        mode_amplitudes=modes.psi,
+        time=0.0, f=f, direction=direction, u=u, u_velocity=velocity, mode_amplitudes=modes.psi
     )
 
 
@@ -248,15 +253,13 @@ def deflection(case: Parameters, states: Any, r: Radii, theta: Angles) -> Any:
 
     modes = mode_arrays(case)
     low, high = radial_range(case)
-    given = [states] if isinstance(states, State) else states
+    given = states
+    if isinstance(states, State):
+        given = [states]
     fit = isinstance(given, Iterable) and all(_fits(state, modes.psi) for state in given)
+    rule = f"must be within {as_text(low)} and {as_text(high)}"
     require(
-        (
-            np.all((low <= r) & (r <= high)),
-            "r",
-            r.tolist(),
-            f"must be within {as_text(low)} and {as_text(high)}",
-        ),
+        (np.all((low <= r) & (r <= high)), "r", r.tolist(), rule),
         (fit, "states", states, f"must be states of the case, with {len(modes.psi)} modes"),
     )
     shapes = mode_shapes(case, r).T
@@ -289,16 +292,14 @@ class EngineCase:
     kind: tuple[Any, ...]  # `flags_of` the model: they determine the types of all arguments
     start: EngineState  # the static start
     amplitudes: np.ndarray  # `State.mode_amplitudes`
-    present: (
-        np.ndarray
-    )  # indices in a, b, alpha, beta of all modes of what exists: no b, beta without nodal diameter
+    # indices in a, b, alpha, beta of all modes of what exists: no b, beta without nodal diameter
+    present: np.ndarray
     places: np.ndarray  # their indices in `EngineState.disc`
     # matrix from there to u, u' (without the slope's share), slope B and v_s / r_0 under the slider
     point: np.ndarray
     surface: np.ndarray  # shape (n_modes,), from beta to v_s / r_0
-    idle: defaultdict[
-        int, list[Workspace]
-    ]  # workspaces that no run uses at present, by the order of their series
+    # workspaces that no run uses at present, by the order of their series
+    idle: defaultdict[int, list[Workspace]]
 
 
 @lru_cache(maxsize=32)  # with their workspaces tens of kilobytes each, megabytes with 1000 modes
@@ -436,14 +437,18 @@ def _checked_gap(case: EngineCase, source: State, state: EngineState, *, is_star
     row = case.point[0]
     w = float(row.dot(state.disc))
     gap = source.u - w
-    apart = source.phase == "separation"
-    if gap == 0 or (gap > 0 or not is_start if apart else case.model.has_compliance):
+    place = "at"
+    room = SAME_HEIGHT
+    free: object = case.model.has_compliance
+    if source.phase == "separation":
+        place = "at or above"
+        room = INSIDE
+        free = gap > 0 or not is_start
+    if gap == 0 or free:
         return gap
-    place, room = ("at or above", INSIDE) if apart else ("at", SAME_HEIGHT)
     size = float(np.abs(row).dot(np.abs(state.disc))) + abs(source.u_velocity) * case.model.unit
-    rule = (
-        f"must be {place} the disc under the slider, {w:.9g}, in {source.phase}: change a with it"
-    )
+    where = f"{place} the disc under the slider, {w:.9g}, in {source.phase}"
+    rule = f"must be {where}: change a with it"
     require((abs(gap) <= room * size, "initial_state.u", source.u, rule))
     return gap
 
@@ -458,7 +463,9 @@ def _rate_over_material(case: EngineCase, source: State) -> float:
     begins = source._roots[0] > 0
     rounding = begins and abs(rate) <= SAME_SPEED * (case.model.Omega + abs(surface))
     against = rate * source.direction < 0
-    return 0.0 if rounding or against or source.phase == "stick" else rate
+    if rounding or against or source.phase == "stick":
+        return 0.0
+    return rate
 
 
 def _forget_switch(case: EngineCase, state: EngineState) -> bool:
@@ -476,11 +483,11 @@ def _forget_switch(case: EngineCase, state: EngineState) -> bool:
     touches = abs(scalars["u"] - w) <= SAME_HEIGHT * sizes[0]
     rests = abs(opening) <= SAME_HEIGHT * (sizes[1] + abs(rate) * sizes[2])
     if phase == SEPARATION and touches and not rests:
-        motion.put_phase(state, phase, direction, (1 if opening > 0 else 0, 0))
+        motion.put_phase(state, phase, direction, (int(opening > 0), 0))
     elif case.model.has_compliance and touches and begins:
-        motion.put_phase(state, phase, direction, (1 if rate == 0 and phase == SLIP else 0, 1))
+        motion.put_phase(state, phase, direction, (int(rate == 0 and phase == SLIP), 1))
     elif touches or phase == SLIP:
-        motion.put_phase(state, SLIP if rate else STICK, int(np.sign(rate)))
+        motion.put_phase(state, (STICK, SLIP)[bool(rate)], int(np.sign(rate)))
         return True
     else:
         motion.put_phase(state, phase, direction)
@@ -497,10 +504,11 @@ def _check(state: State, case: EngineCase) -> None:
         rule = f"must be {count} finite numbers, one per row of plate_modes"
         good = np.shape(values) == (count,) and np.asarray(values).dtype.kind in "fiu"
         rules.append((good and np.isfinite(values).all(), path + name, values, rule))
-    for name in (*PLAIN, "drive_angle"):
-        value = getattr(state, name)
-        good = value is None and name == "drive_angle"
-        good = good or (is_number(value) and math.isfinite(value))
+    plain = {name: getattr(state, name) for name in PLAIN}
+    if state.drive_angle is not None:
+        plain["drive_angle"] = state.drive_angle
+    for name, value in plain.items():
+        good = is_number(value) and math.isfinite(value)
         rules.append((good, path + name, value, "must be a finite number"))
     signed = state.phase != "slip" or state.direction in (-1, 1)
     require(
@@ -515,14 +523,14 @@ def _check(state: State, case: EngineCase) -> None:
     ahead = state.phase != "slip" or off * state.direction >= -rounding
     signs = f"must have the sign of direction={state.direction}, less the surface's {surface:.9g}"
     others = "must be psi of plate_modes: the state belongs to other modes"
+    digit = math.ulp(state.time)  # of which the clock's compensation is a part
+    rule = "must be less than the last digit of the time"
     require(
-        # the clock's compensation is at most a unit in the last place of the time
-        (abs(state.time_low) <= math.ulp(state.time), path + "time_low", state.time_low,
-         "must be less than the last digit of the time"),
+        (abs(state.time_low) <= digit, path + "time_low", state.time_low, rule),
         (held, path + "f", state.f, f"must be {surface:.9g} in stick, the disc's surface's"),
         (ahead, path + "f", state.f, signs),
         (_fits(state, case.amplitudes), path + "mode_amplitudes", state.mode_amplitudes, others),
-    )  # fmt: skip
+    )
 
 
 def _fits(state: object, amplitudes: Array) -> bool:
