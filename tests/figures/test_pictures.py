@@ -183,7 +183,7 @@ def test_points_on_the_way_are_told_from_the_final_motion() -> None:
         "psi_velocity": size * np.sin(0.2 * np.pi * time),
         "w_point": size * np.cos(0.2 * np.pi * time),
         "w_point_velocity": size * np.sin(0.2 * np.pi * time),
-        "phase": np.ones(200, np.int8),
+        "phase": np.where(time == 20, 2, 1).astype(np.int8),
     }
     kept = tree["poincare"].to_dataset()
     columns = {name: ("time", values, kept[name].attrs) for name, values in section.items()}
@@ -192,7 +192,8 @@ def test_points_on_the_way_are_told_from_the_final_motion() -> None:
     figure = drawn("poincare", Example({"case": "A"}, {"A": tree}))
     assert "first separation at 10.00 s, final motion since 40 s" in said(figure)
     counts = {x.get_label(): np.isfinite(x.get_ydata()).sum() for x in figure.axes[0].lines}
-    assert counts["on the way to the final motion"] == 30
+    assert counts["in contact, on the way to the final motion"] == 29
+    assert counts["separated, on the way to the final motion"] == 1
     assert counts["in contact, final motion"] == 160
 
 

@@ -65,7 +65,8 @@ rule make_table:
 rule show_model:
     # A drawing that was made once, with the radii of Table 1.
     input:
-        WORKFLOW / "paper" / "figures_model.svg",
+        # relative, so that a folder that moves stays up to date
+        os.path.relpath(WORKFLOW / "paper" / "figures_model.svg"),
     output:
         report(
             f"{RESULTS}/figures/model.svg",

@@ -82,13 +82,15 @@ def _samples(ax: Axes, study: Dataset, x: str) -> None:
     options = stated_in(study, "options")
     psi = study["psi"].transpose(x, ...)
     late = study["settled"] != "settled"
+    few = late & (study["sample"] <= MOST_HOLLOW)
+    doubt = f"hollow: not settled in {options['max_transient']:g} s"
     for phase, marker in MARKS.items():
         look: Options = {"color": OF_PHASE[phase], "mfc": OF_PHASE[phase], "ms": 2.0, "mew": 0}
-        here = psi.where((study["phase"] == phase) & ~late)
-        mark_points(ax, study[x], here, EVENTS.get(phase, phase), marker=marker, **look)
-    few = psi.where(late & (study["sample"] <= MOST_HOLLOW))
-    doubt = f"hollow: not settled in {options['max_transient']:g} s"
-    mark_points(ax, study[x], few, doubt, color=GREY, marker="o", mew=0.5)
+        here = psi.where(study["phase"] == phase)
+        mark_points(
+            ax, study[x], here.where(~late), EVENTS.get(phase, phase), marker=marker, **look
+        )
+        mark_points(ax, study[x], here.where(few), doubt, color=GREY, marker=marker, mew=0.5)
     ax.margins(y=0.12)  # room for the classes
     above = ax.inset_axes((0, 0.93, 1, 0.07), sharex=ax)
     strip(above, study["kind"])

@@ -155,7 +155,8 @@ def draw_portrait(ax: Axes, samples: Dataset, x: str, y: str) -> None:
 
 POINTS: dict[str, Options] = {
     "before the first separation": {"marker": "x", "color": SKY},
-    "on the way to the final motion": {"marker": "o", "color": GREY, "mfc": "none"},
+    "separated, on the way to the final motion": {"marker": "^", "color": RED, "mfc": "none"},
+    "in contact, on the way to the final motion": {"marker": "o", "color": GREY, "mfc": "none"},
     "separated": {"marker": "^", "color": RED, "mfc": RED},
     "in contact": {"marker": ".", "color": BLACK, "mfc": BLACK},
 }
@@ -191,11 +192,9 @@ def draw_sections(axes: Sequence[Axes], case: DataTree, name: str = "poincare") 
     samples = window_of(case, name)
     first = number_of(case, "first_separation")
     final = final_since(case, samples)
-    conditions = [
-        samples["time"] < first,
-        samples["time"] < final,
-        samples["phase"] == "separation",
-    ]
+    separated = samples["phase"] == "separation"
+    on_the_way = samples["time"] < final
+    conditions = [samples["time"] < first, separated & on_the_way, on_the_way, separated]
     *stages, usual = POINTS
     stage = np.select(conditions, stages, usual)
     known = {"final motion": final, "after the first separation": first}
