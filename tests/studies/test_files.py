@@ -44,7 +44,7 @@ def test_a_fault_is_named_with_its_place_value_and_rule(raw: dict[str, Any], wor
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("a: [", "line 1"),
+        ("a: [", "line 2"),
         ("a: 1\nb: 2\n c: 3", "line 3"),
         ("a: 1\na: 2", "a is given twice"),
         ("study: s\nquantity: floquet\naxes: {N: [1], N: [2]}", "N is given twice"),

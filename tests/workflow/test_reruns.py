@@ -152,5 +152,7 @@ def test_a_point_that_fails_is_reported(project: Project) -> None:
     project.complete("-j2", "--until", "draw_figure")
     bad = int((dataset(project, "small_map/small_map.nc")["status"] != 0).sum())
     lines = (project.folder / "results/small_map/small_map.failed.txt").read_text().splitlines()
-    assert len(lines) == bad > 0
-    assert "N = 1000000 N, Omega = 25 rad/s, normalization = as_published: paradox" in lines[-2]
+    assert len(lines) - 1 == bad > 0  # below a heading
+    assert any(
+        all(x in line for x in ("1000000", "25", "as_published", "paradox")) for line in lines
+    )

@@ -32,8 +32,10 @@ from disc_model.figures.runs import (
 )
 from disc_model.figures.schema import (
     IN_FULL,
+    IN_TIME,
     Case,
     Cases,
+    InTime,
     Ranges,
     Role,
     Sampled,
@@ -355,7 +357,7 @@ TABLE_2 = {
 """Lines of the paper, Hz, by their components; pairs are too close for separate names."""
 
 
-@case_figure(dict.fromkeys(STRETCHES[1:], IN_FULL))
+@case_figure(dict.fromkeys(STRETCHES[1:], IN_TIME))
 def four_stretches(
     case: DataTree, ignored: Case, history: Ranges = "history", until: Seconds | None = None
 ) -> Figure:
@@ -417,7 +419,7 @@ def name_lines(ax: Axes) -> None:
 def response(  # noqa: PLR0913
     case: DataTree,
     variable: Sampled,
-    window: Samples,
+    window: InTime,
     ignored: Case = None,
     history: Ranges = "history",
     zooms: Annotated[tuple[tuple[str, Finite], ...], Field(max_length=2)] = (),

@@ -95,9 +95,30 @@ Case = Annotated[Any, str]
 Cases = Annotated[Any, tuple[str, ...]]
 
 IN_FULL = Recorded("must be a window without an envelope", lambda w: not w.envelope)
+IN_TIME = Recorded(
+    "must be a window without an envelope, of 1.1 s or more",
+    lambda w: not w.envelope and w.stop - w.start >= 1.1,
+)
 Samples = Annotated[str, IN_FULL]
-Ranges = Annotated[str, Recorded("must be a window that has an envelope", lambda w: w.envelope)]
-Either = Annotated[str, Recorded("must be a window")]
+InTime = Annotated[str, IN_TIME]
+
+
+def _has_two(window: Any) -> bool:
+    """Whether a window has two samples, or envelopes, or more; the first is at its start."""
+    least = 2 * (window.envelope or 1) - 1
+    return bool((window.stop - window.start) * window.rate >= least)
+
+
+Ranges = Annotated[
+    str,
+    Recorded(
+        "must be a window that has an envelope, and two envelopes or more",
+        lambda w: w.envelope and _has_two(w),
+    ),
+]
+Either = Annotated[
+    str, Recorded("must be a window of two samples, or two envelopes, or more", _has_two)
+]
 
 
 # ---- Figures
