@@ -103,10 +103,9 @@ Samples = Annotated[str, IN_FULL]
 InTime = Annotated[str, IN_TIME]
 
 
-def _has_two(window: Any) -> bool:
-    """Whether a window has two samples, or envelopes, or more; the first is at its start."""
-    least = 2 * (window.envelope or 1) - 1
-    return bool((window.stop - window.start) * window.rate >= least)
+def _has_two(window: Window) -> bool:
+    """Whether a window has two samples, or envelopes, or more."""
+    return window.count >= 2 * (window.envelope or 1)
 
 
 Ranges = Annotated[

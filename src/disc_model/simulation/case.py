@@ -139,11 +139,18 @@ class Window(Span):
             return t_end
         return min(max(t_end - 0.5 / self.rate, first + 0.25 / self.rate), t_end)
 
+    @property
+    def count(self) -> int:
+        """Number of samples, before they are combined to an envelope."""
+        return self._times((self.start, self.stop), self.stop).number
+
     def grid(self, p: Parameters, start: float, t_end: float) -> SampleTimes:
         """When samples are taken in a run of the case from ``start`` to ``t_end``, s, before they are
         combined to an envelope."""
-        span = (max(self.start, start), min(self.stop, t_end))
-        return _sample_times(self.start, 1 / self.rate, span, self.theta, t_end)
+        return self._times((max(self.start, start), min(self.stop, t_end)), t_end)
+
+    def _times(self, span: tuple[float, float], end: float) -> SampleTimes:
+        return _sample_times(self.start, 1 / self.rate, span, self.theta, end)
 
 
 class Poincare(Interval):
