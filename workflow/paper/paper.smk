@@ -57,10 +57,8 @@ rule make_table:
     conda:
         "../envs/disc_model.yaml"
     params:
-        # a table without a case computes all of it itself
-        code=lambda w: (
-            PAPER_CODE if TABLE_CASES[w.table] else PAPER_CODE + physics_hash()
-        ),
+        # what a table has not from cases, as that of the precursor, it computes
+        code=PAPER_CODE + physics_hash(),
     shell:
         "job paper/scripts/make_table {wildcards.table} {output} {input} > {log} 2>&1"
 
