@@ -153,7 +153,7 @@ def _compared(p: Parameters, quantity: str) -> Iterator[tuple[Size, ...]]:
         ]:
             yield size, RICH
     else:
-        for l, c in CANDIDATES + LARGER * (quantity == "sliding_growth"):
+        for l, c in CANDIDATES + (LARGER if quantity == "sliding_growth" else ()):
             yield (l, c), (2 * l, c), (2 * l, c + 1)
 
 

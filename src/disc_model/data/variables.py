@@ -279,7 +279,8 @@ def ranged_variable(name: str) -> str:
 
 def unit_of_parameter(name: str) -> str:
     """The unit of a parameter for readers; "" without one."""
-    return Parameters.unit(name).removeprefix("1")
+    unit = Parameters.unit(name)
+    return "" if unit == "1" else unit
 
 
 def value_with_unit(name: str, value: float) -> str:

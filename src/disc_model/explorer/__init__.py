@@ -109,7 +109,8 @@ def _lists(own: Dataset, flags: Names, chosen: Names) -> Entries:
     names."""
     lists: Any = {dim: dict(enumerate(map(value_text, own[dim]))) for dim in chosen}
     for name, x in own.drop_vars(TEXTS, errors="ignore").items():
-        lists.setdefault(("numbers", "classes")[name in flags], {})[name] = f"{label(x)} · {name}"
+        kind = "classes" if name in flags else "numbers"
+        lists.setdefault(kind, {})[name] = f"{label(x)} · {name}"
     return lists
 
 

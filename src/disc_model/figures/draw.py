@@ -243,7 +243,8 @@ def number_map(ax: Axes, x: DataArray, missing: DataArray | None = None, **colou
 
 def missing_text(x: DataArray) -> str:
     """What a legend says of points without a value."""
-    return f"no value: {x.attrs.get('missing', '')}".removesuffix(": ")
+    why = x.attrs.get("missing", "")
+    return f"no value: {why}" if why else "no value"
 
 
 def lone_cells(flag: DataArray) -> DataArray:

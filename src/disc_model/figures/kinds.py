@@ -14,6 +14,7 @@ from disc_model.data.variables import stated_in
 from disc_model.errors import Fault, ParameterError, suggestion
 from disc_model.figures import modes, motions, runs, studies
 from disc_model.figures.draw import COLUMN, PAGE, finish, panels, styled
+from disc_model.figures.looks import Options
 from disc_model.figures.schema import NORM, CasePlot, Kind, Plot, kinds_in
 from disc_model.figures.shown import key_of, shown, shown_case
 from disc_model.parameters import Parameters
@@ -58,7 +59,7 @@ def render(plot: Kind, inputs: Mapping[str, DataTree]) -> Figure:
             else:
                 figure = _of_studies(plot, inputs)
         except Missing as reason:
-            what = ("study", "case")[isinstance(plot, CasePlot)]
+            what = "case" if isinstance(plot, CasePlot) else "study"
             figure, axes = panels([["a"]], COLUMN, 2)
             axes["a"].set_axis_off()
             axes["a"].text(0.5, 0.5, f"not shown: the {what} {reason}", ha="center", wrap=True)
@@ -121,10 +122,8 @@ def _prepared(plot: Plot, data: Dataset) -> Dataset:
 def save(figure: Figure, path: str | Path, title: str = "") -> None:
     """Write a figure with its title; equal figures give equal bytes. Further files have the layout of
     the first."""
-    options: dict[str, Any] = {
-        "pil_kwargs": {"compress_level": 1}
-    }  # half the time, 1.1 of the size
-    metadata: dict[str, Any] = {"Software": None}
+    options: Options = {"pil_kwargs": {"compress_level": 1}}  # half the time, 1.1 of the size
+    metadata: Options = {"Software": None}
     if Path(path).suffix == ".pdf":
         options = {}
         metadata = {"CreationDate": None}

@@ -148,7 +148,7 @@ def label(x: DataArray) -> str:
     """The label of an axis or of a bar of colours, of an array as it is shown."""
     unit = x.attrs.get("units", "").replace(" ", "\u00a0")  # no line ends within it
     name = str(x.attrs.get("long_name", x.name))
-    return f"{name} ({unit})".removesuffix(" ()")
+    return f"{name} ({unit})" if unit else name
 
 
 def value_text(x: DataArray) -> str:

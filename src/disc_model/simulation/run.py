@@ -123,7 +123,7 @@ class Run:
                 self.samples[name] = Samples(grid.number, getattr(window, "envelope", None) or 1)
             except (MemoryError, ValueError) as error:
                 raise ParameterError(Fault(("windows", name), "", f"{error}: too many")) from None
-        capacity = BUFFER * bool(grids)
+        capacity = BUFFER if grids else 0
         return record.RunBuffers(
             np.zeros(record.N_COUNTERS, np.int64),
             np.zeros(3),
@@ -231,7 +231,7 @@ class Run:
         counters[record.EVENT_ROWS] = counters[record.SAMPLE_ROWS] = 0
         if counters[record.SEPARATIONS] > 0 and math.isnan(self.first_separation):
             self.first_separation = events[events[:, 1] == record.LOSS_OF_CONTACT][0, 0].item()
-        self.events.append(events[: len(events) * self.request.events].copy())
+        self.events.append(events.copy() if self.request.events else events[:0])
         for i, samples in enumerate(self.samples.values()):
             samples.add(rows[rows[:, 0] == i, 1:])
 
@@ -304,7 +304,7 @@ class Samples:
     some are filled."""
 
     def __init__(self, count: int, fold: int) -> None:
-        self.names = (SAMPLE_ROW, BIN_ROW)[fold > 1]
+        self.names = BIN_ROW if fold > 1 else SAMPLE_ROW
         self.columns = np.empty((len(self.names), count // fold))
         self.fold = fold
         self.filled = 0

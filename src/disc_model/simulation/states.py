@@ -163,7 +163,7 @@ def perturb(
         rate = f
         if state.phase == "slip":
             rate += slip_rate(p, state)
-        changes |= {"phase": ("stick", "slip")[bool(rate)], "direction": int(np.sign(rate))}
+        changes |= {"phase": "slip" if rate else "stick", "direction": int(np.sign(rate))}
     return state.replace(**changes)
 
 
@@ -487,7 +487,7 @@ def _forget_switch(case: EngineCase, state: EngineState) -> bool:
     elif case.model.has_compliance and touches and begins:
         motion.put_phase(state, phase, direction, (int(rate == 0 and phase == SLIP), 1))
     elif touches or phase == SLIP:
-        motion.put_phase(state, (STICK, SLIP)[bool(rate)], int(np.sign(rate)))
+        motion.put_phase(state, SLIP if rate else STICK, int(np.sign(rate)))
         return True
     else:
         motion.put_phase(state, phase, direction)

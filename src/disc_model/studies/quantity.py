@@ -256,8 +256,9 @@ def quantity(
             return words(described(found, name, dict(chosen)))
 
         text, examples, rest = str(function.__doc__).partition("    Examples\n")
-        returned = RETURNED * ("    Returns\n" not in text)
-        checked.__doc__ = "".join([text, returned, RAISED, examples, rest])
+        if "    Returns\n" not in text:
+            text += RETURNED
+        checked.__doc__ = "".join([text, RAISED, examples, rest])
         function.__qualname__ += ".__wrapped__"  # by which pickle finds it
         return cast(F, checked)
 

@@ -178,7 +178,7 @@ def _crossings(lost: Mapping[int, bool | None], lattice: Sequence[float]) -> Row
     row: Row = {
         "n_crossings": len(changes),
         "crossing": [lattice[b] for _, b in changes],
-        "crossing_kind": [("ends", "begins")[bool(lost[b])] for _, b in changes],
+        "crossing_kind": ["begins" if lost[b] else "ends" for _, b in changes],
         "critical_speed": math.nan,
     }
     if lost.get(first):
