@@ -79,35 +79,48 @@ def hopf_speed(p: Parameters) -> float:
     return (math.sqrt(ratio) - 1) / p.friction_decay
 
 
-def next_extreme_pull(p: Parameters, stretch: float) -> tuple[float, float]:
-    """Time (s) and stretch (m) at the next largest stretch of a motion that slips on from one, where
-    v = V; falling friction."""
+def slip_until(p: Parameters, stretch: float, slip_speed: float, event, direction, count=1):
+    """Time (s), stretch (m) and slip speed (m/s) where a function of stretch, slip speed and the
+    rate of that, m/s^2, crosses zero in a direction for the ``count``-th time in a slip."""
     speed = p.r_0 * p.Omega
 
     def rates(_, state):
         stretch, slip_speed = state
-        mu = friction_coefficient(p, slip_speed)
         growth = speed - slip_speed
-        return [growth, (p.k_p * stretch + p.c_p * growth - mu * p.N) / p.m]
+        friction = friction_coefficient(p, slip_speed) * p.N
+        return [growth, (p.k_p * stretch + p.c_p * growth - friction) / p.m]
 
-    def excess(_, state):
-        return state[1] - speed
+    def met(time, state):
+        return event(*state, rates(time, state)[1])
 
-    excess.direction = 1
-    excess.terminal = 2  # the first one is the start
+    met.direction = direction
+    met.terminal = count
     run = solve_ivp(
         rates,
         (0.0, 10 * math.tau * math.sqrt(p.m / p.k_p)),
-        [stretch, speed],
+        [stretch, slip_speed],
         method="DOP853",
         rtol=1e-13,
         atol=1e-16,
-        events=excess,
+        events=met,
     )
-    times = run.t_events[0]
-    states = run.y_events[0]
-    last = states[-1]
-    return float(times[-1]), float(last[0])
+    return float(run.t_events[0][-1]), *run.y_events[0][-1].tolist()
+
+
+def next_extreme_pull(p: Parameters, stretch: float) -> tuple[float, float]:
+    """Time (s) and stretch (m) at the next largest stretch of a motion that slips on from one, where
+    v = V, as it is at the start; falling friction."""
+    speed = p.r_0 * p.Omega
+    time, largest, _ = slip_until(p, stretch, speed, lambda _, v, __: v - speed, 1, count=2)
+    return time, largest
+
+
+def least_slip_speed(p: Parameters) -> float:
+    """The first minimum of the slip speed after a release, m/s; stick-slip ends where it is zero."""
+    speed = p.r_0 * p.Omega
+    release = (p.mu_s * p.N - p.c_p * speed) / p.k_p
+    # from a small speed: at rest the release may be an equilibrium of the force
+    return slip_until(p, release, 1e-9 * speed, lambda _, __, rate: rate, 1)[2]
 
 
 def slipping_cycle(p: Parameters, low: float, high: float) -> tuple[float, float]:

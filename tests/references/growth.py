@@ -14,12 +14,14 @@ STEP = 1e-30
 
 
 class SteadySliding:
-    """The equations of slip in the direction of the drive.
+    """The equations of slip, which is in the direction of the drive unless `direction` is -1.
 
     values : by the names of `Parameters`; the contact is rigid if ``contact_compliance`` is 0
     omega, psi, l, damping, tangential : of the modes, damping being 2 xi omega (1/s) and tangential
         the amplitudes at the surface of friction (1/sqrt(kg))
     """
+
+    direction = 1
 
     def __init__(self, values, omega, psi, l, damping, tangential):
         for name in ("N", "Omega", "m", "k", "c", "k_p", "c_p", "mu_s", "mu_k", "r_0"):
@@ -49,58 +51,49 @@ class SteadySliding:
         return self.mu_k + (self.mu_s - self.mu_k) * fall + self.mu_v * v
 
     def residual(self, x, z):
-        """F: one equation for each of the unknowns."""
+        """F: one equation for each of the unknowns, for each column of x and z."""
         n = self.n
-        s = self.s
-        l = self.l
-        t = self.t
-        a, b, alpha, beta = x[: 4 * n].reshape(4, n)
-        spring = x[4 * n]
-        f = x[4 * n + 1]
-        a_rate, b_rate, alpha_rate, beta_rate = z[: 4 * n].reshape(4, n)
-        spring_rate = z[4 * n]
-        f_rate = z[4 * n + 1]
+        s, l, t, d, w2 = (y[:, None] for y in (self.s, self.l, self.t, self.d, self.w2))
+        a, b, alpha, beta = x[: 4 * n].reshape(4, n, -1)
+        spring, f = x[4 * n : 4 * n + 2]
+        a_rate, b_rate, alpha_rate, beta_rate = z[: 4 * n].reshape(4, n, -1)
+        spring_rate, f_rate = z[4 * n : 4 * n + 2]
         V, H, R, T, g = z[self.size :]
         F = self.k_p * spring + self.c_p * (self.Omega - f)
-        slope = np.sum(l * s * b) / self.r_0
+        sliding = self.direction * self.friction(self.direction * self.r_0 * g)
+        slope = (self.l * self.s) @ b / self.r_0
         if self.C:
             u, v = x[4 * n + 2 :]
-            climb = z[4 * n + 3]
+            u_rate, climb = z[4 * n + 2 : 4 * n + 4]
         else:
-            g_rate = f_rate - np.sum(t * beta_rate) / self.r_0
-            u = np.sum(s * a)
-            v = np.sum(s * a_rate)
-            climb = np.sum(s * alpha_rate) + np.sum(l * s * (g_rate * b + g * b_rate))
-        lean = 0.0
-        if self.normal:
-            lean = slope
+            g_rate = f_rate - self.t @ beta_rate / self.r_0
+            u = self.s @ a
+            v = self.s @ a_rate
+            climb = self.s @ alpha_rate + (self.l * self.s) @ (g_rate * b + g * b_rate)
+        lean = slope if self.normal else 0.0
         equations = [
             a_rate - alpha - l * g * b,
             b_rate - beta + l * g * a,
-            alpha_rate + self.d * alpha + self.w2 * a - l * g * beta + s * V,
-            beta_rate + self.d * beta + self.w2 * b + l * g * alpha - t * H,
-            [spring_rate - self.Omega + f],
-            [self.m * self.r_0 * f_rate - self.r_0 * F + H],
-            [self.m * climb - V + self.N + self.k * (u - self.u_0) + self.c * v],
-            [g - f + np.sum(t * beta) / self.r_0],
-            [T - self.friction(self.r_0 * g) * R],
-            [V - R + T * lean],
-            [H - T - R * lean],
+            alpha_rate + d * alpha + w2 * a - l * g * beta + s * V,
+            beta_rate + d * beta + w2 * b + l * g * alpha - t * H,
+            spring_rate - self.Omega + f,
+            self.m * self.r_0 * f_rate - self.r_0 * F + H,
+            self.m * climb - V + self.N + self.k * (u - self.u_0) + self.c * v,
+            g - f + self.t @ beta / self.r_0,
+            T - sliding * R,
+            V - R + T * lean,
+            H - T - R * lean,
         ]
         if self.C:
-            equations += [[z[4 * n + 2] - v], [self.C * V - np.sum(s * a) + u]]
-        return np.concatenate(equations)
+            equations += [u_rate - v, self.C * V - self.s @ a + u]
+        return np.vstack(equations)
 
     def jacobian(self, x, z):
         """dF/dx and dF/dz."""
-        both = np.concatenate([x, z]).astype(complex)
-        columns = []
-        for i in range(len(both)):
-            moved = both.copy()
-            moved[i] += 1j * STEP
-            columns.append(self.residual(moved[: len(x)], moved[len(x) :]).imag / STEP)
-        columns = np.array(columns).T
-        return columns[:, : len(x)], columns[:, len(x) :]
+        both = np.concatenate([x, z])
+        moved = both[:, None] + 1j * STEP * np.eye(len(both))
+        slopes = self.residual(moved[: len(x)], moved[len(x) :]).imag / STEP
+        return slopes[:, : len(x)], slopes[:, len(x) :]
 
     def equilibrium(self):
         """Coordinates and unknowns where nothing changes: Newton's method, in all coordinates but
@@ -125,7 +118,7 @@ class SteadySliding:
         for _ in range(50):
             by_x, by_z = self.jacobian(x, z)
             left = np.hstack([by_x[:, free], by_z[:, forces]])
-            right = -self.residual(x, z)
+            right = -self.residual(x[:, None], z[:, None])[:, 0]
             # newtons stand beside micrometres: without scales small singular values would be cut off
             rows = 1 / np.maximum(abs(left).max(axis=1), STEP)
             left = rows[:, None] * left

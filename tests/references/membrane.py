@@ -4,14 +4,13 @@ The harmonics of a deflection stretch the plate.  Here the equilibrium of the pl
 solved in its strong form, N_r' + (N_r - N_t - n S)/r = 0 and S' + (n N_t + 2 S)/r = 0, at Chebyshev
 points, with the edges' conditions as equations; the energy is the work of the forces N_P on the
 deflection's own strains of another pair P', because strains of displacements do no work in
-equilibrium.  Modes come from scipy's Bessel functions, with integrals by Gauss' rule.
+equilibrium.  The package's modes, which have references of their own, are differentiated at these points.
 """
-
-from functools import lru_cache
 
 import numpy as np
 from numpy.polynomial import chebyshev
-from scipy import optimize, special
+
+from disc_model.disc.plate import mode_shapes
 
 POINTS = 48
 
@@ -34,72 +33,19 @@ class Ring:
         self.weights = half * (means @ series)
 
 
-def edge_matrix(l, beta, a, b, nu):
-    """Conditions at both edges on the coefficients of J, Y, I, K: R and R' at a, moment and
-    Kirchhoff shear at b."""
-    functions = (special.jv, special.yv, special.iv, special.kv)
-    slopes = (special.jvp, special.yvp, special.ivp, special.kvp)
-    signs = np.array([-1.0, -1.0, 1.0, 1.0])
-    R = np.array([f(l, beta * b) for f in functions])
-    D = beta * np.array([f(l, beta * b) for f in slopes])
-    laplacian = signs * beta**2
-    moment = laplacian * R - (1 - nu) * (D / b - l**2 * R / b**2)
-    shear = laplacian * D - (1 - nu) * l**2 / b**2 * (D - R / b)
-    inner = [f(l, beta * a) for f in functions]
-    return np.array([inner, [beta * f(l, beta * a) for f in slopes], moment, shear])
-
-
-@lru_cache
-def shape(l, a, b, nu):
-    """beta and the coefficients of J, Y, I, K of the mode without nodal circle."""
-
-    def determinant(beta):
-        matrix = edge_matrix(l, beta, a, b, nu)
-        scaled = matrix / abs(matrix).max(axis=0)
-        return np.linalg.det(scaled / abs(scaled).max(axis=1)[:, None])
-
-    start = 0.5 / (b - a) if l < 2 else (0.02 + 0.3 * (l - 1)) / b
-    grid = start + 0.05 / (b - a) * np.arange(400)
-    values = [determinant(beta) for beta in grid]
-    first = next(i for i in range(399) if values[i] * values[i + 1] < 0)
-    beta = optimize.brentq(determinant, grid[first], grid[first + 1], xtol=1e-13, rtol=1e-15)
-    matrix = edge_matrix(l, beta, a, b, nu)
-    scale = abs(matrix).max(axis=0)
-    scaled = matrix / scale
-    vector = np.linalg.svd(scaled / abs(scaled).max(axis=1)[:, None])[2][-1] / scale
-    return beta, vector
-
-
-def radial(l, r, a, b, nu):
-    """R and R' at radii r, normalised by 2 pi / b^2 times the integral of R^2 r; positive at b."""
-    beta, vector = shape(l, a, b, nu)
-    functions = (special.jv, special.yv, special.iv, special.kv)
-    slopes = (special.jvp, special.yvp, special.ivp, special.kvp)
-
-    def value(x):
-        return sum(c * f(l, beta * x) for c, f in zip(vector, functions, strict=True))
-
-    nodes, weights = np.polynomial.legendre.leggauss(60)
-    nodes = a + (b - a) / 2 * (nodes + 1)
-    norm = 2 * np.pi / b**2 * (b - a) / 2 * (weights * nodes) @ value(nodes) ** 2
-    norm = np.sqrt(norm) * np.sign(value(b))
-    slope = beta * sum(c * f(l, beta * r) for c, f in zip(vector, slopes, strict=True))
-    return value(r) / norm, slope / norm
-
-
 class Membrane:
-    """Coefficients G^n of the plate of a case without nodal circles, orthonormal."""
+    """Coefficients G^n of the plate of a case without nodal circles, whose amplitudes at r_0 are
+    positive."""
 
     def __init__(self, p, edge, points=POINTS):
         self.p = p
         self.clamped = edge == "clamped"
         self.ring = Ring(p.a, p.b, points)
+        shapes = mode_shapes(p, np.append(self.ring.r, p.r_0))
         self.modes = {}
-        for l in range(p.n_diameters + 1):
-            around = np.sqrt(2.0) if l else 1.0
-            scale = around / np.sqrt(p.rho * p.h * p.b**2)
-            R, D = radial(l, self.ring.r, p.a, p.b, p.nu)
-            self.modes[l] = self.modes[-l] = scale * R, scale * D
+        for l, shape in enumerate(shapes):
+            R = shape[:-1] * np.sign(shape[-1])
+            self.modes[l] = self.modes[-l] = R, self.ring.derivative @ R
 
     def pairs(self, n):
         """Unordered pairs (p, q), p <= q, of harmonics whose sum is n."""

@@ -117,19 +117,14 @@ class Problem:
     """A case's numbers in long double, from values by the names of `Parameters`, its modes and
     their nodal diameters.
 
-    ``rates`` are those of Omega (rad/s^2) and N (N/s), from the time ``since`` on; ``offset`` is
-    that of the friction surface (m), and ``tangential`` the modes' amplitudes there (1/sqrt(kg)) if
+    Omega and N change at rates (rad/s^2, N/s) from the time ``since`` on; ``offset`` is that of the friction surface (m), and ``tangential`` the modes' amplitudes there (1/sqrt(kg)) if
     they do not follow from it; ``membrane`` : `Stretching.coefficients`.  A pad's arc is in the
     amplitudes already; ``point`` has those of a single point.
     """
 
-    since = LONG(0)
+    since = Omega_rate = N_rate = LONG(0)
 
-    def __init__(
-        self, values, omega, psi, l, rates=(0.0, 0.0), offset=0.0, tangential=None, membrane=()
-    ):
-        self.Omega_rate = LONG(rates[0])
-        self.N_rate = LONG(rates[1])
+    def __init__(self, values, omega, psi, l, offset=0.0, tangential=None, membrane=()):
         for name in ("N", "Omega", "m", "k", "c", "k_p", "c_p", "mu_s", "mu_k", "r_0"):
             setattr(self, name, LONG(values[name]))
         self.C = LONG(values.get("contact_compliance", 0))
@@ -187,43 +182,29 @@ class Problem:
         return State(o, "stick", 0, o, o, self.u_0, o, self.a_0, zero, zero, zero)
 
 
-def problem_of(p, rates=(0.0, 0.0)):
+def problem_of(p):
     """`Problem` of disc_model `Parameters`, with the modes of `plate_modes` (amplitudes made
     positive)."""
     modes = plate_modes(p)
     values = p.model_dump() | {"contact_compliance": contact_compliance(p)}
     sign = np.sign(modes["psi"].to_numpy())
     offset, tangential = surface_of(p)
-    if tangential is None:
-        given = None
-    else:
-        given = sign * np.array(tangential)
-    membrane = stretching_of(p) if getattr(p, "stretching", "none") != "none" else ()
+    if tangential is not None:
+        tangential = sign * np.array(tangential)
+    membrane = stretching_of(p) if p.stretching != "none" else ()
+    amplitudes = sign * modes["psi"]
     return Problem(
-        values,
-        modes["omega"],
-        sign * modes["psi"],
-        modes["diameters"],
-        rates,
-        offset,
-        given,
-        membrane,
+        values, modes["omega"], amplitudes, modes["diameters"], offset, tangential, membrane
     )
 
 
-def stretching_of(p, edge=""):
-    """`Stretching.coefficients` of a case without nodal circles, by an own computation; ``edge``
-    replaces the case's."""
-    found = Membrane(p, edge or p.stretching)
-    # the scale of the modes is that of their amplitudes under a point
-    psi = plate_modes(p.replace(contact_arc=0.0))["psi"].to_numpy()
-    orthonormal = plate_modes(p.replace(contact_arc=0.0, normalization="orthonormal"))["psi"]
-    kappa = abs(psi / orthonormal.to_numpy())
+def stretching_of(p):
+    """`Stretching.coefficients` of a case without nodal circles, by an own computation."""
+    found = Membrane(p, p.stretching)
     parts = []
     for n in range(2 * p.n_diameters + 1):
         pairs, G = found.coefficients(n)
-        scale = np.array([kappa[abs(p)] * kappa[abs(q)] for p, q in pairs])
-        parts.append((pairs, (G + G.T) / 2 * np.outer(scale, scale)))
+        parts.append((pairs, (G + G.T) / 2))
     return parts
 
 

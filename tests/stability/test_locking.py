@@ -17,7 +17,6 @@ from disc_model.simulation.states import engine_case
 from disc_model.stability import locking
 from disc_model.stability.cycle import multipliers
 from disc_model.stability.locking import Releases, lock_of, releases_of
-from tests.references import stored, taylor
 from tests.references.fixed_step import switches
 
 CASE = Parameters(N=200, Omega=20, normalization="as_published")
@@ -207,7 +206,6 @@ def vibrations_by_fixed_steps(run: Result, duration: float) -> list[int]:
     """Numbers of separations between releases, from the state in which a run begins."""
     p = run.parameters
     assert run.initial_state is not None
-    start = stored.reference_state(run.initial_state, p)
-    _, kinds = switches(taylor.problem_of(p), start, duration)
+    _, kinds = switches(p, run.initial_state, duration)
     releases = [at for at, kind in enumerate(kinds) if kind == "stick_to_slip"]
     return [kinds[at:end].count("separation") for at, end in pairwise(releases)]

@@ -2,13 +2,12 @@
 form."""
 
 import re
-from math import acos, atan, cos, exp, pi, sin, sqrt
+from math import acos, atan, cos, pi, sin, sqrt
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
 import pytest
-from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 from disc_model import Disc, Parameters, continue_cycle, plate_modes, simulate, steady_sliding
@@ -104,33 +103,20 @@ def belt(p):
 def damped_belt(p):
     """The speed at which the slider, after its first swing, is just as fast as the belt: there it
     sticks no more."""
-
-    def sticks(Omega, c_p):
-        kinds = simulate(p.replace(Omega=Omega, c_p=c_p), 1.0, tol=1e-13).events["kind"]
-        return "slip_to_stick" in set(kinds)
-
-    def excess(v, c_p):
-        """Velocity of the spring's end after a swing less that of the belt, v (m/s), with which it
-        starts."""
-        square = p.k_p / p.m
-        decay = c_p / (2 * p.m)
-        w = sqrt(square - decay**2)
-        z = ((p.mu_s - p.mu_k) * p.N - c_p * v) / p.k_p
-        rate = -2 * decay * v - square * z
-        t = (2 * pi + atan(w * rate / (square * v + decay * rate))) / w
-        cosine = cos(w * t)
-        sine = sin(w * t)
-        factor = (square * z + decay * v) / w
-        falling = exp(-decay * t)
-        return falling * (v * cosine - factor * sine) - v
-
     found = {}
     for c_p in (0.5, 1.0, 2.0, 5.0):
-        about = (
-            (p.mu_s - p.mu_k) * p.N / sqrt(2 * pi * c_p * sqrt(p.k_p * p.m))
-        )  # the rule of thumb for small damping
-        exact = brentq(excess, about / 2, 2 * about, args=(c_p,), xtol=1e-15) / p.r_0
-        own = edge(lambda Omega, c_p=c_p: sticks(Omega, c_p), 0.9 * exact, 1.1 * exact)
+
+        def least(Omega, c_p=c_p):
+            return block.least_slip_speed(p.replace(Omega=Omega, c_p=c_p))
+
+        def sticks(Omega, c_p=c_p):
+            kinds = simulate(p.replace(Omega=Omega, c_p=c_p), 1.0, tol=1e-13).events["kind"]
+            return "slip_to_stick" in set(kinds)
+
+        # the rule of thumb for small damping
+        about = (p.mu_s - p.mu_k) * p.N / sqrt(2 * pi * c_p * sqrt(p.k_p * p.m)) / p.r_0
+        exact = brentq(least, about / 2, 2 * about, xtol=1e-13)
+        own = edge(sticks, 0.9 * exact, 1.1 * exact)
         found[f"c_p = {c_p:g} N s/m, rad/s"] = exact, own
     return found
 
@@ -262,46 +248,18 @@ def bounce(p):
 
 
 def falling_friction(p):
-    """A cycle from release to release: by a method of Runge and Kutta for slip, x in m along the
-    belt."""
+    """A cycle from release to release, of slip by a method of Runge and Kutta."""
     speed = p.r_0 * p.Omega
-
-    def rates(_, y):
-        x, v = y
-        return [
-            speed - v,
-            (p.k_p * x - p.N * (p.mu_k + (p.mu_s - p.mu_k) / (1 + p.friction_decay * v))) / p.m,
-        ]
-
-    def stop(_, y):
-        return y[1]
-
-    def turn(_, y):
-        return y[1] - speed
-
-    stop.terminal = True
-    stop.direction = -1
-    turn.direction = 1
     release = p.mu_s * p.N / p.k_p
-    slip = solve_ivp(
-        rates,
-        (0, 1e3),
-        [release, 0.0],
-        method="DOP853",
-        rtol=1e-13,
-        atol=1e-14,
-        events=(stop, turn),
-    )
-    end = slip.t_events[0][0]
-    largest = slip.y_events[1][0][0]
-    rest = slip.y_events[0][0][0]
+    end, rest, _ = block.slip_until(p, release, 0.0, lambda _, v, __: v, -1)
+    turn, largest, _ = block.slip_until(p, release, 0.0, lambda _, v, __: v - speed, 1)
     stick = (release - rest) / speed
     run = simulate(p, release / speed + 1.01 * (end + stick), tol=1e-14)
     start, halt, again = run.events["time"][:3]
     stopped = p.r_0 * run.events["psi"][1]
     # a state at the turn: from there the largest displacement is missed by the square of the turn's
     # error
-    near = simulate(p, start + slip.t_events[1][0], tol=1e-14).final_state
+    near = simulate(p, start + turn, tol=1e-14).final_state
     exact = end, rest, stick, end + stick, largest
     own = halt - start, stopped, again - halt, again - start, p.r_0 * near.psi
     names = (
@@ -324,35 +282,6 @@ def hopf(p):
     return exact, brentq(growth, 0.9 * exact, 1.1 * exact, xtol=1e-15, rtol=1e-14)
 
 
-def least_speed(p, stretch):
-    """The first minimum of the slip speed (m/s) after a release at a stretch (m), by a method of
-    Runge and Kutta."""
-    speed = p.r_0 * p.Omega
-
-    def rates(_, y):
-        x, v = y
-        growth = speed - v
-        return [growth, (p.k_p * x + p.c_p * growth - p.N * block.friction_coefficient(p, v)) / p.m]
-
-    def slowest(_, y):
-        return rates(0, y)[1]
-
-    slowest.terminal = True
-    slowest.direction = 1
-    swing = 2 * pi * sqrt(p.m / p.k_p)
-    # from a small speed: at rest the release is an equilibrium of the force
-    slip = solve_ivp(
-        rates,
-        (0, 3 * swing),
-        [stretch, 1e-9 * speed],
-        method="DOP853",
-        rtol=1e-13,
-        atol=1e-16,
-        events=slowest,
-    )
-    return float(slip.y_events[0][0][1])
-
-
 def stribeck(p):
     """Hopf speed, displacement in steady sliding, and the speed at which stick-slip ends: there the
     least slip speed after a release is zero."""
@@ -362,9 +291,7 @@ def stribeck(p):
     own = p.r_0 * steady_sliding(fast).psi
 
     def stops(Omega):
-        case = p.replace(Omega=Omega)
-        release = (p.mu_s * p.N - p.c_p * p.r_0 * Omega) / p.k_p
-        return least_speed(case, release) < 0
+        return block.least_slip_speed(p.replace(Omega=Omega)) < 0
 
     end = p.r_0 * edge(stops, p.Omega, 2 * p.Omega)
     branch = continue_cycle(p, "Omega", (p.Omega, 2 * p.Omega))

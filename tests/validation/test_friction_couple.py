@@ -10,7 +10,6 @@ from disc_model.disc.plate import modal_damping
 from disc_model.simulation.states import static_start
 from tests.contact_laws import LAWS
 from tests.references import taylor
-from tests.references.fixed_step import first_separation
 from tests.references.growth import couple, steady_eigenvalues
 
 EACH_LAW = {"default": {}} | LAWS
@@ -67,18 +66,6 @@ def compare_sliding(p):
     assert len(wanted) == len(sliding.eigenvalues)
     assert max(apart.min(axis=0).max(), apart.min(axis=1).max()) < 1e-8
     assert sliding.growth_rate == pytest.approx(wanted.real.max(), abs=1e-8)
-
-
-@pytest.mark.slow
-@pytest.mark.compiled
-@pytest.mark.parametrize(("N", "Omega"), [(385, 15), (200, 30), (385, 20), (600, 20)])
-def test_first_separations_are_those_of_fixed_steps(N, Omega):
-    """To 0.1 %; without the couple none of the first two separates so early."""
-    p = Parameters(N=N, Omega=Omega, **ORTHONORMAL)
-    wanted = first_separation(taylor.problem_of(p), 80)
-    assert simulate(p, 80, stop_at="first_separation").first_separation == pytest.approx(
-        wanted, rel=1e-3
-    )
 
 
 @pytest.mark.slow

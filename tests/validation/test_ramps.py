@@ -5,40 +5,18 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from disc_model import Execution, Parameters, Ramp, Window, simulate
-from tests.contact_laws import ALL_LAWS, COMPILES, course_of, turned
-from tests.references import stored, taylor
+from disc_model import Parameters, Ramp
+from tests.contact_laws import ALL_LAWS, COMPILES
+from tests.references import taylor
+from tests.references.agree import followed
 
 #: s, what is promised.
 EVENT_TIMES = 1e-12
-THETA = 0.7
 
 
-def compared(p, ramps, t_end, start=None):
-    """Switches of a run on ramps, its audit, and samples that also show where the drive has turned
-    to."""
-    q = taylor.problem_of(p)
-    course = course_of(p, ramps)
-    reference = taylor.Reference(q, start or q.equilibrium(), course=course)
-    windows = {"w": Window(rate=1e3, theta=THETA)}
-    execution = Execution(audit_every_step=True)
-    given = start and stored.engine_state(start, p)
-    found = simulate(
-        p, t_end, windows, tol=1e-15, initial_state=given, ramps=ramps, execution=execution
-    )
-    assert found.statistics["audited_steps"] == found.statistics["steps"]
-    assert found.statistics["energy_residual"] < 1e-13
-    sample = found.samples["w"]
-    wanted = np.array([reference.run(t).sample(turned(course, t), THETA) for t in sample["time"]])
-    for name, values in zip(taylor.SAMPLED, wanted.T, strict=True):
-        np.testing.assert_allclose(
-            sample[name], values, rtol=0, atol=1e-9 * np.abs(values).max(), err_msg=name
-        )
-    events = reference.run(t_end).events
-    assert list(found.events["kind"]) == [event["kind"] for event in events]
-    times = [float(event["time"]) for event in events]
-    np.testing.assert_allclose(found.events["time"], times, rtol=0, atol=EVENT_TIMES)
-    return found
+def compared(p, ramps, span, start=None):
+    """A run on ramps, whose samples also show where the drive has turned to."""
+    return followed(p, span, start, ramps=ramps, within=EVENT_TIMES, theta=0.7)[0]
 
 
 def _ramp(p, parameter, rate, end=0.0625):

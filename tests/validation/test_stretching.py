@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 
 from disc_model import (
-    Execution,
     Parameters,
     Ramp,
     floquet,
@@ -19,9 +18,10 @@ from disc_model import (
     steady_sliding,
 )
 from disc_model.stability.return_map import ReturnMap
-from tests.contact_laws import ALL_LAWS, COMPILES, course_of
+from tests.contact_laws import ALL_LAWS, COMPILES
 from tests.engine.test_saltation import differences
-from tests.references import taylor
+from tests.references import stored, taylor
+from tests.references.agree import followed
 from tests.stability.test_return_map import central_differences, check_derivatives
 
 KINDS = ("stick_to_slip", "slip_to_stick", "separation", "reattachment")
@@ -42,15 +42,6 @@ def start_of(p, kick):
     if p.contact_compliance:
         u = state.u + kick
     return state.replace(a=a, u=float(u))
-
-
-def reference_of(p, state, ramps=()):
-    """The own integrator at a state of stick."""
-    q = taylor.problem_of(p)
-    sign = np.sign(plate_modes(p)["psi"].to_numpy())
-    modal = [(sign * getattr(state, name)).tolist() for name in ("a", "b", "alpha", "beta")]
-    own = taylor.State(0.0, "stick", 0, 0.0, 0.0, state.u, 0.0, *modal)
-    return taylor.Reference(q, own, course=course_of(p, ramps) if ramps else ())
 
 
 @pytest.mark.compiled
@@ -96,24 +87,14 @@ OWN = {
 }
 
 
-def compare(p, kick, span, tol=1e-14, ramps=()):
-    """Every event and the final state of the own integrator, and the energy."""
-    start = start_of(p, kick)
-    other = reference_of(p, start, ramps).run(span)
-    execution = Execution(audit_every_step=True)
-    run = simulate(p, span, tol=tol, initial_state=start, ramps=ramps, execution=execution)
-    names = [event["kind"] for event in other.events]
-    assert list(run.events["kind"].values) == names
-    assert len(names) >= 3
-    wanted = [float(event["time"]) for event in other.events]
-    # coefficients of the membrane agree to 1e-10
-    np.testing.assert_allclose(run.events["time"], wanted, rtol=0, atol=1e-9)
-    assert run.statistics["energy_residual"] < 1e-12
-    sign = np.sign(plate_modes(p)["psi"].to_numpy())
-    largest = float(abs(other.a).max())
-    np.testing.assert_allclose(
-        sign * run.final_state.a, other.a.astype(float), rtol=0, atol=1e-6 * largest
-    )
+def compare(p, kick, span, ramps=()):
+    """Every event and the final state of the own integrator, whose coefficients of the membrane
+    agree to 1e-10."""
+    start = stored.reference_state(start_of(p, kick), p)
+    run, other = followed(p, span, start, ramps=ramps, tol=1e-14, within=1e-9)
+    assert len(run.events) >= 3
+    a = stored.engine_state(other.state(), p).a
+    np.testing.assert_allclose(run.final_state.a, a, rtol=0, atol=1e-6 * abs(a).max())
 
 
 @pytest.mark.compiled
@@ -217,15 +198,17 @@ def test_steady_sliding(case, status):
     p = Parameters(stretching="clamped", **case)
     sliding = steady_sliding(p)
     assert sliding.status == status
+    state = start_of(p, 0.0)
+    modal = {name: getattr(sliding, name) for name in stored.MODAL}
     u = plate_modes(p)["psi"].to_numpy() @ sliding.a
     q = taylor.problem_of(p)
     if p.contact_compliance:
         load = q.N - q.k * q.u_0
         u = (u - q.C * load) / (1 + q.k * q.C)
-    sign = np.sign(plate_modes(p)["psi"].to_numpy())
-    modal = [(sign * getattr(sliding, name)).tolist() for name in ("a", "b", "alpha", "beta")]
-    state = taylor.State(0.0, "slip", 1, sliding.psi, p.Omega, u, 0.0, *modal)
-    step = taylor.Step(q, "slip", 1, taylor.Reference(q, state).state(), order=2)
+    state = state.replace(
+        phase="slip", direction=1, psi=sliding.psi, f=p.Omega, u=float(u), **modal
+    )
+    step = taylor.Step(q, "slip", 1, stored.reference_state(state, p), order=2)
     assert float(step.R[0]) == pytest.approx(sliding.contact_force, rel=1e-8)
     assert float(abs(step.f[1])) < 1e-6 * p.Omega
     assert float(abs(step.a[1]).max()) < 1e-10
