@@ -10,7 +10,7 @@ STEP = 1e-5
 """s; 0.05 rad of the fastest of nine modes: first separations change in their eighth digit if it is halved."""
 
 
-def switches(p, start, duration):
+def switches(p, start, duration, step=STEP):
     """Times (s) and kinds of the events of a case, from a state on."""
-    found = METHODS["RK4"].solve(Problem(p, start, start.time + duration), STEP)
-    return found.times, found.kinds
+    found = METHODS["RK4"].solve(Problem(p, start, start.time + duration), step)
+    return found.times, list(found.kinds)
