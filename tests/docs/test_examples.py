@@ -163,24 +163,6 @@ def test_public_functions_have_all_sections(name: str) -> None:
     assert sections >= {"Parameters", "Returns", "Raises", "Examples"}
 
 
-def drawing_methods() -> list[Any]:
-    """Return the methods of what functions return that draw."""
-    methods = []
-    for name in (*RETURNED, "Result"):
-        for member in vars(resolve_name(f"disc_model.{name}")).values():
-            if getattr(member, "__name__", "").startswith(("plot", "animate")):
-                methods.append(member)
-    return methods
-
-
-def test_methods_that_draw_show_their_use_and_say_what_they_return_and_raise() -> None:
-    methods = drawing_methods()
-    assert len(methods) == 8
-    for method in methods:
-        for word in (">>> ", "Returns|returns", "Raises|raises"):
-            assert re.search(word, method.__doc__), f"{method.__qualname__}: {word}"
-
-
 # ---- Notebooks
 
 

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
+from numpy.polynomial import polynomial
 
 from disc_model.engine.model import ROWS
 from disc_model.engine.roots import NO_ROOT, first_root, set_powers
@@ -25,7 +26,7 @@ def first(coefficients, x_end: float = 1.0, low: int = 0, degree: int = DEGREE) 
 
 def from_roots(roots) -> np.ndarray:
     """Coefficients, lowest first, positive at 0."""
-    c = np.polynomial.polynomial.polyfromroots(roots)
+    c = polynomial.polyfromroots(roots)
     if c[0] > 0:
         return c
     return -c
@@ -37,41 +38,21 @@ ROUNDING = Fraction(2, 10**15)
 """Of the sum of the moduli of all terms: what the module promises."""
 
 
-def value(c: list[Fraction], x: Fraction) -> Fraction:
-    return sum((a * x**i for i, a in enumerate(c)), Fraction())
-
-
-def times(c: list[Fraction], d: list[Fraction]) -> list[Fraction]:
-    found = [Fraction()] * (len(c) + len(d) - 1)
-    for i, a in enumerate(c):
-        for j, b in enumerate(d):
-            found[i + j] += a * b
-    return found
-
-
-def remainder(c: list[Fraction], d: list[Fraction]) -> list[Fraction]:
-    """Of c over d, without leading zeros."""
-    c = c[:]
-    while len(c) >= len(d):
-        factor = c[-1] / d[-1]
-        for i in range(len(d)):
-            c[len(c) - len(d) + i] -= factor * d[i]
-        while c and c[-1] == 0:
-            c.pop()
-    return c
-
-
 def number_of_roots(c: list[Fraction], x: Fraction) -> int:
     """Different real roots in (0, x], by Sturm's theorem; none of them at 0."""
-    chain = [c, [i * a for i, a in enumerate(c)][1:]]
-    while len(chain[-1]) > 1 and (rest := remainder(chain[-2], chain[-1])):
-        chain.append([-a for a in rest])
+    chain = [np.array(c, object), polynomial.polyder(np.array(c, object))]
+    while len(chain[-1]) > 1 and (rest := polynomial.polydiv(chain[-2], chain[-1])[1]).any():
+        chain.append(-rest)
 
     def changes(x: Fraction) -> int:
-        signs = [v > 0 for v in (value(each, x) for each in chain) if v != 0]
+        signs = [v > 0 for v in (polynomial.polyval(x, each) for each in chain) if v != 0]
         return sum(one != two for one, two in pairwise(signs))
 
     return changes(Fraction()) - changes(x)
+
+
+def multiplied(c: list[Fraction], d: list[Fraction]) -> list[Fraction]:
+    return list(polynomial.polymul(np.array(c, object), np.array(d, object)))
 
 
 @st.composite
@@ -90,10 +71,10 @@ def hidden_roots(draw: st.DrawFn) -> tuple[list[float], float]:
         roots.append(draw(st.sampled_from([roots[0] * (1 + shift), *ends])))
     c = [Fraction(draw(st.sampled_from([-1, 1])))]
     for root in roots:
-        c = times(c, [-root, Fraction(1)])
+        c = multiplied(c, [-root, Fraction(1)])
     if draw(st.booleans()):  # a factor without real roots
         a, b = (x_end * Fraction(draw(st.floats(0.0, 1.0))) for _ in range(2))
-        c = times(c, [a**2 + b**2 + x_end / 64, -2 * a, Fraction(1)])
+        c = multiplied(c, [a**2 + b**2 + x_end / 64, -2 * a, Fraction(1)])
     if c[0] < 0:
         c = [-a for a in c]
     return [float(a) for a in c], float(x_end)
@@ -130,7 +111,7 @@ def test_no_root_is_hidden(drawn: tuple[list[float], float]) -> None:
     assert until > 0
     assert number_of_roots([c[0] + rounding, *c[1:]], until) == 0
     if got != NO_ROOT:
-        assert value(c, until) <= rounding
+        assert polynomial.polyval(until, np.array(c, object)) <= rounding
 
 
 @pytest.mark.parametrize("degree", [3, 6, 7, 8, 15, 17])
@@ -141,7 +122,7 @@ def test_the_highest_terms_of_any_degree_count(degree: int) -> None:
     late[degree] = -(1.25**degree)
     late[1] = 0.1
     root = first(late, degree=degree)
-    assert np.polynomial.polynomial.polyval(root, late) == pytest.approx(0.0, abs=1e-14 * degree)
+    assert polynomial.polyval(root, late) == pytest.approx(0.0, abs=1e-14 * degree)
     assert 0.8 < root < 1.0
 
     # two roots, so that one sign does not decide

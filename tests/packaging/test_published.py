@@ -44,13 +44,6 @@ def test_what_is_not_published_is_not_linked() -> None:
     assert not wrong, "\n".join(wrong)
 
 
-def test_a_placeholder_and_an_address_of_another_owner_are_recognised() -> None:
-    assert OWN.search("git clone https://github.com/OWNER/disc_model")
-    assert OWN.search("[site](https://someone.github.io/disc_model/)")
-    assert OWN.search("doi: 10.5281/zenodo.0000000")
-    assert not OWN.search("https://github.com/snakemake/snakemake-workflow-catalog")
-
-
 @needs.ACTIONLINT.mark
 def test_definitions_for_actions_have_no_faults() -> None:
     assert run(needs.program("actionlint"), *WORKFLOWS.values()).stdout == ""

@@ -44,8 +44,3 @@ def _is_module(name: str) -> bool:
 def test_a_script_imports_what_there_is(script: Path) -> None:
     """A function had moved to another module, and no figure could be drawn."""
     assert list(missing_names(script.read_text(encoding="utf-8"))) == []
-
-
-def test_a_missing_name_is_found() -> None:
-    text = "from disc_model.figures import draw\nfrom disc_model.figures.draw import nothing"
-    assert list(missing_names(text)) == ["disc_model.figures.draw.nothing"]

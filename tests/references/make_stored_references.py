@@ -15,7 +15,6 @@ import json
 import numpy as np
 
 from disc_model.errors import script
-from tests.contact_laws import LAWS
 from tests.references.stored import DATA, load
 from tests.references.taylor import TRUNCATION, Reference, stored_problem
 
@@ -80,12 +79,6 @@ def main():
         q = stored_problem({**group, "modes": wild["modes"]})
         group["runs"] = [again(q, run, group["t_end"]) for run in group["runs"]]
     write("wild", wild)
-
-    for law in LAWS:
-        data = load(f"contact_{law}")
-        q = stored_problem(data)
-        data["runs"] = [again(q, run, run["t_end"]) for run in data["runs"]]
-        write(f"contact_{law}", data)
 
     first = load("first_separation")
     q = stored_problem(first)

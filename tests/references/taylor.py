@@ -117,8 +117,9 @@ class Problem:
     """A case's numbers in long double, from values by the names of `Parameters`, its modes and
     their nodal diameters.
 
-    Omega and N change at rates (rad/s^2, N/s) from the time ``since`` on; ``offset`` is that of the friction surface (m), and ``tangential`` the modes' amplitudes there (1/sqrt(kg)) if
-    they do not follow from it; ``membrane`` : `Stretching.coefficients`.  A pad's arc is in the
+    Omega and N change at rates (rad/s^2, N/s) from the time ``since`` on; ``offset`` is that of
+    the friction surface (m), and ``tangential`` the modes' amplitudes there (1/sqrt(kg)) if they do
+    not follow from it; ``membrane`` : `Stretching.coefficients`.  A pad's arc is in the
     amplitudes already; ``point`` has those of a single point.
     """
 

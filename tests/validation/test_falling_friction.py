@@ -8,7 +8,7 @@ from disc_model import Parameters, continue_cycle, floquet, simulate, steady_sli
 from disc_model.engine import transitions
 from disc_model.engine.record import EVENT_ROW
 from disc_model.stability.return_map import ReturnMap
-from tests.contact_laws import COUPLE, COUPLED, EXPONENTIAL, FALLING, VISCOUS
+from tests.contact_laws import COUPLE, COUPLED, EXPONENTIAL, FALLING, LAWS, VISCOUS
 from tests.references import stored, taylor
 from tests.references.agree import followed
 from tests.validation.test_friction_couple import compare_sliding
@@ -128,12 +128,28 @@ def test_the_fold_of_the_quiet_cycle_comes_to_the_paper_s():
     assert branch.growth_rate[-1] == pytest.approx(floquet(reached).growth_rate, abs=1e-8)
 
 
+EXACT = [
+    (decay, {"friction_law": law})
+    for decay in (3.0, 1e3, 1e9)
+    for law in ("hyperbolic", "exponential")
+]
+
+
 @pytest.mark.compiled
-@pytest.mark.parametrize("law", ["hyperbolic", "exponential"])
-@pytest.mark.parametrize("decay", [3.0, 1e3, 1e9])
+@pytest.mark.parametrize(
+    ("decay", "law"),
+    [
+        *EXACT,
+        (np.inf, LAWS["compliant_normal"]),
+        *(
+            pytest.param(np.inf, LAWS[law], marks=pytest.mark.slow)
+            for law in ("compliant", "normal")
+        ),
+    ],
+)
 def test_event_times_are_as_exact_as_the_tolerance_says(decay, law):
     """Up to three times `tol` after a second and a half; they were up to 3000 times as far off."""
-    p = Parameters(N=385, Omega=15.1, friction_decay=decay, friction_law=law)
+    p = Parameters(N=385, Omega=15.1, friction_decay=decay, **law)
     right = simulate(p, 1.5, tol=1e-15).events["time"]
     for tol in (1e-8, 1e-10, 1e-12):
         assert np.abs(simulate(p, 1.5, tol=tol).events["time"] - right).max() < 3 * tol

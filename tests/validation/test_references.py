@@ -14,7 +14,7 @@ import pytest
 
 from disc_model import Parameters, plate_modes, simulate
 from disc_model.analysis.classify import CLOSES, shortest_period
-from tests.contact_laws import ALL_LAWS, LAWS
+from tests.contact_laws import ALL_LAWS
 from tests.references import fixed_step, growth, stored, taylor
 from tests.references.printed import MOTIONS, P, lively
 
@@ -132,23 +132,16 @@ def test_the_papers_method_finds_the_same_period(case, t_end, period, length):
 
 
 # ------------------------------------------------------------------------ the references themselves
-@pytest.mark.parametrize("name", ["A", "B", "C", *(f"contact_{name}" for name in LAWS)])
+@pytest.mark.parametrize("name", ["A", "B", "C"])
 def test_stored_runs_can_be_computed_again(name):
-    """Those of the default law by an integrator that shares no code with the one that found
-    them."""
+    """By an integrator that shares no code with the one that found them."""
     data = stored.load(name)
     q = taylor.stored_problem(data)
-    if name in "ABC":
-        runs = [(data, 0.1)]
-    else:
-        runs = [(run, 0.01) for run in data["runs"][:2]]
-    for run, span in runs:
-        start = run["start"] or q.equilibrium()
-        reference = taylor.Reference(q, start).run(float(start.time) + span)
-        again = reference.events
-        assert [event["kind"] for event in again] == run["kinds"][: len(again)]
-        for event, t in zip(again, stored.times_of(run), strict=False):
-            assert abs(event["time"] - t) < 1e-16
+    start = data["start"] or q.equilibrium()
+    again = taylor.Reference(q, start).run(float(start.time) + 0.1).events
+    assert [event["kind"] for event in again] == data["kinds"][: len(again)]
+    for event, t in zip(again, stored.times_of(data), strict=False):
+        assert abs(event["time"] - t) < 1e-16
 
 
 @pytest.mark.parametrize("law", ["default", *ALL_LAWS])

@@ -54,15 +54,6 @@ class Page:
             time.sleep(0.05)
         return found
 
-    def resize(self, width: int, height: int) -> None:
-        """Show the page as a window, or a telephone, of that size would (CSS pixels)."""
-        metrics = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": width < 600}
-        self.call(
-            "POST",
-            "/goog/cdp/execute",
-            {"cmd": "Emulation.setDeviceMetricsOverride", "params": metrics},
-        )
-
     def point(self, x: float, y: float, *, click: bool = False) -> None:
         """Move the pointer to a place in the window, and click there."""
         steps: list[dict[str, Any]] = [

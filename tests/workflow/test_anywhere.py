@@ -1,6 +1,7 @@
 """The workflow outside its repository's folder: from elsewhere, as a module, without the package
 installed."""
 
+import os
 import re
 import sys
 from pathlib import Path
@@ -56,32 +57,51 @@ def test_a_study_is_computed_in_another_folder(elsewhere: Path) -> None:
     )
 
 
-def test_neither_the_folder_of_the_environment_nor_the_locale_matters(tmp_path: Path) -> None:
-    """A shell executed parts of the folder's name, and a title that is not ASCII ended the
-    merge."""
+def test_neither_the_environment_nor_the_locale_matters(tmp_path: Path) -> None:
+    """A shell executed parts of the folder's name, a title that is not ASCII ended the merge, jobs
+    called a `python` of another version, and drew as a notebook had chosen."""
     environment = tmp_path / 'we$ird `touch EXECUTED` "x'
     environment.symlink_to(sys.prefix)
-    mine_path = tmp_path / "mine.yaml"
-    mine_path.write_text(
+    other = tmp_path / "python"
+    other.write_text("#!/bin/sh\necho another version >&2\nexit 99\n")
+    other.chmod(0o755)
+    (tmp_path / "mine.yaml").write_text(
         STUDY.replace("itle: Growth", "itle: Grüße Ω, growth").replace("P_{max}", "Größe P_{max}"),
         encoding="utf-8",
     )
-    plain = {"LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}
-    command = (
-        environment / "bin" / "python",
-        "-m",
-        "snakemake",
-        "-s",
-        SNAKEFILE,
-        "--configfile",
-        "mine.yaml",
-    )
-    run(*command, "-j2", cwd=tmp_path, timeout=900, **plain)
-    executed_path = tmp_path / "EXECUTED"
-    assert not executed_path.exists()
-    mine_file = tmp_path / "results" / "mine" / "mine.nc"
-    with xr.open_dataset(mine_file) as study:
+    variables = {
+        "LC_ALL": "C",
+        "PYTHONUTF8": "0",
+        "PYTHONCOERCECLOCALE": "0",
+        "PATH": os.pathsep.join([str(tmp_path), os.environ["PATH"]]),
+        "MPLBACKEND": "module://no_such_module.backend",
+    }
+    command = [environment / "bin" / "python3", "-m", "snakemake", "-s", SNAKEFILE]
+    command += ["--configfile", "mine.yaml", "-j2"]
+    run(*command, cwd=tmp_path, timeout=900, **variables)
+    assert not (tmp_path / "EXECUTED").exists()
+    assert (tmp_path / "results/mine/figures/growth.png").read_bytes().startswith(b"\x89PNG")
+    with xr.open_dataset(tmp_path / "results/mine/mine.nc") as study:
         assert study.attrs["title"].startswith("Grüße Ω")
+
+
+def test_a_profile_that_looks_at_times_alone_leaves_nothing_out_of_date(tmp_path: Path) -> None:
+    """Results of the former values stayed, and nothing was said."""
+    (tmp_path / "config.yaml").write_text("rerun-triggers: [mtime]\n")
+    made = tmp_path / "results" / "mine"
+
+    def results(text: str) -> tuple[xr.Dataset, bytes]:
+        (tmp_path / "mine.yaml").write_text(text)
+        command = [sys.executable, "-m", "disc_model", "study", "mine.yaml", "-j2"]
+        run(*command, cwd=tmp_path, timeout=300, SNAKEMAKE_PROFILE=str(tmp_path))
+        return xr.load_dataset(made / "mine.nc"), (made / "figures" / "growth.png").read_bytes()
+
+    before, picture = results(STUDY)
+    after, _ = results(STUDY.replace("N: 200", "N: 210"))
+    assert not after["growth_rate"].equals(before["growth_rate"])
+    again, other_picture = results(STUDY.replace("variable: growth_rate", "variable: period"))
+    xr.testing.assert_identical(again, before)
+    assert other_picture != picture
 
 
 def test_all_is_made_by_default_wherever_the_snakefile_is(tmp_path: Path) -> None:
