@@ -56,8 +56,3 @@ def test_a_growing_motion_is_met_where_its_range_has_a_width() -> None:
     assert found.gained > found.damped > 0
     with pytest.raises(Absent, match=r"maintained contact comes to [\d.]+ mm only"):
         at_range(GROWS, 30.0, 0.1, history)
-
-
-def test_the_end_is_the_last_quarter_of_the_stages() -> None:
-    history = [Powers(*[float(number)] * 5) for number in (1, 2, 3, 4, 5, 6, 7, 9)]
-    assert in_the_end(history) == Powers(*[8.0] * 5)

@@ -120,7 +120,7 @@ def least_slip_speed(p: Parameters) -> float:
     speed = p.r_0 * p.Omega
     release = (p.mu_s * p.N - p.c_p * speed) / p.k_p
     # from a small speed: at rest the release may be an equilibrium of the force
-    return slip_until(p, release, 1e-9 * speed, lambda _, __, rate: rate, 1)[2]
+    return slip_until(p, release, 1e-12 * speed, lambda _, __, rate: rate, 1)[2]
 
 
 def slipping_cycle(p: Parameters, low: float, high: float) -> tuple[float, float]:

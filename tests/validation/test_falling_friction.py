@@ -148,11 +148,13 @@ EXACT = [
     ],
 )
 def test_event_times_are_as_exact_as_the_tolerance_says(decay, law):
-    """Up to three times `tol` after a second and a half; they were up to 3000 times as far off."""
+    """Up to three times `tol` after a second and a half, four times with a compliant contact; they
+    were up to 3000 times as far off."""
     p = Parameters(N=385, Omega=15.1, friction_decay=decay, **law)
     right = simulate(p, 1.5, tol=1e-15).events["time"]
+    allowed = 4 if p.contact_compliance else 3
     for tol in (1e-8, 1e-10, 1e-12):
-        assert np.abs(simulate(p, 1.5, tol=tol).events["time"] - right).max() < 3 * tol
+        assert np.abs(simulate(p, 1.5, tol=tol).events["time"] - right).max() < allowed * tol
 
 
 @pytest.mark.slow

@@ -18,7 +18,7 @@ from disc_model import (
     steady_sliding,
 )
 from disc_model.stability.return_map import ReturnMap
-from tests.contact_laws import ALL_LAWS, COMPILES
+from tests.contact_laws import ALL_LAWS
 from tests.engine.test_saltation import differences
 from tests.references import stored, taylor
 from tests.references.agree import followed
@@ -69,67 +69,47 @@ def test_given_scenes(norm):
         )
 
 
-OWN = {
-    "free edge, orthonormal": {
-        "N": 400,
-        "Omega": 30,
-        "normalization": "orthonormal",
-        "kick": -0.003,
-    },
-    "six diameters": {"N": 300, "Omega": 40, "n_diameters": 6, "c": 0.3, "kick": 0.001},
-    "damped, bilateral": {
-        "N": 150,
-        "Omega": 10,
-        "c_p": 0.3,
-        "contact": "bilateral",
-        "kick": -0.004,
-    },
-}
-
-
-def compare(p, kick, span, ramps=()):
-    """Every event and the final state of the own integrator, whose coefficients of the membrane
-    agree to 1e-10."""
-    start = stored.reference_state(start_of(p, kick), p)
-    run, other = followed(p, span, start, ramps=ramps, tol=1e-14, within=1e-9)
-    assert len(run.events) >= 3
-    a = stored.engine_state(other.state(), p).a
-    np.testing.assert_allclose(run.final_state.a, a, rtol=0, atol=1e-6 * abs(a).max())
-
-
-@pytest.mark.compiled
-@pytest.mark.parametrize(
-    "name", [pytest.param(name, marks=() if "free" in name else pytest.mark.slow) for name in OWN]
-)
-def test_own_scenes(name):
-    case = dict(OWN[name])
-    kick = case.pop("kick")
-    edge = "free" if name.startswith("free") else "clamped"
-    compare(Parameters(stretching=edge, **case), kick, 0.05)
-
-
 LAWS = {name: ALL_LAWS[name] for name in ("compliant", "normal", "vertical_coupled")}
 LAWS["compliant_normal_exponential"] = ALL_LAWS["compliant_normal_exponential"]
 LAWS["vertical_coupled_falling"] = ALL_LAWS["vertical_coupled_falling"]
 LAWS["pad"] = ALL_LAWS["normal_coupled"] | {"contact_arc": 0.3}
+RAMPS = (
+    Ramp(parameter="N", to=300, start=0.004, end=0.02),
+    Ramp(parameter="Omega", to=20, start=0.0, end=0.01),
+)
+PLATE = {"N": 385, "Omega": 15.1, "c": 0.3}
+# the case, by how much the slider is displaced (m), how long it is followed (s), ramps
+SCENES_OF_OWN = {
+    "free edge": (
+        {"N": 400, "Omega": 30, "normalization": "orthonormal", "stretching": "free"},
+        -0.003,
+        0.05,
+    ),
+    "six diameters": ({"N": 300, "Omega": 40, "n_diameters": 6, "c": 0.3}, 0.001, 0.05),
+    "bilateral": ({"N": 150, "Omega": 10, "c_p": 0.3, "contact": "bilateral"}, -0.004, 0.05),
+    **{name: (PLATE | {"c_p": 0.2} | law, -0.004, 0.025) for name, law in LAWS.items()},
+    "ramps": (PLATE, -0.003, 0.03, RAMPS),
+}
 
 
 @pytest.mark.compiled
-@pytest.mark.parametrize("law", [pytest.param(name, marks=COMPILES) for name in LAWS])
-def test_each_law(law):
-    p = Parameters(N=385, Omega=15.1, c=0.3, c_p=0.2, stretching="clamped", **LAWS[law])
-    compare(p, -0.004, 0.025)
-
-
-@pytest.mark.compiled
-@pytest.mark.parametrize("law", [pytest.param(x, marks=COMPILES) for x in ("vertical",)])
-def test_ramps(law):
-    p = Parameters(N=385, Omega=15.1, c=0.3, stretching="clamped")
-    ramps = (
-        Ramp(parameter="N", to=300, start=0.004, end=0.02),
-        Ramp(parameter="Omega", to=20, start=0.0, end=0.01),
-    )
-    compare(p, -0.003, 0.03, ramps=ramps)
+@pytest.mark.parametrize(
+    "name",
+    [
+        pytest.param(name, marks=() if name == "free edge" else pytest.mark.slow)
+        for name in SCENES_OF_OWN
+    ],
+)
+def test_scenes_of_an_own_integrator(name):
+    """Every event and the final state; coefficients of the membrane agree to 1e-10."""
+    case, kick, span, *ramps = SCENES_OF_OWN[name]
+    p = Parameters(**{"stretching": "clamped"} | case)
+    start = stored.reference_state(start_of(p, kick), p)
+    ramps = ramps[0] if ramps else ()
+    run, other = followed(p, span, start, ramps=ramps, tol=1e-14, within=1e-9)
+    assert len(run.events) >= 3
+    a = stored.engine_state(other.state(), p).a
+    np.testing.assert_allclose(run.final_state.a, a, rtol=0, atol=1e-6 * abs(a).max())
 
 
 GROWTH = [
