@@ -11,12 +11,20 @@ Groups = dict[str, xr.Dataset]
 Damage = Callable[[Groups], Groups]
 
 
+def groups_of(case: xr.DataTree) -> Groups:
+    """Datasets of a case by the names of their groups; that of the case itself is ""."""
+    own = {str(name): node.to_dataset(inherit=False) for name, node in case.children.items()}
+    return {"": case.to_dataset()} | own
+
+
+def tree_of(groups: Groups) -> xr.DataTree:
+    """A case made of groups."""
+    return xr.DataTree.from_dict({f"/{name}": group for name, group in groups.items()})
+
+
 def damaged(case: xr.DataTree, damage: Damage) -> xr.DataTree:
     """A copy of a case, changed."""
-    groups = {"": case.to_dataset()} | {
-        str(n): node.to_dataset(inherit=False) for n, node in case.children.items()
-    }
-    return xr.DataTree.from_dict({f"/{name}": group for name, group in damage(groups).items()})
+    return tree_of(damage(groups_of(case)))
 
 
 def _failed(groups: Groups) -> Groups:

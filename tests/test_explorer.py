@@ -248,7 +248,7 @@ def test_a_click_shows_the_point_and_the_motion_nearest_to_it(tmp_path: Path) ->
         assert opened.wait_for(READY) == first
         x, y = opened.run(CORNER)
         right_end, top = 400, 30  # of the map of classes, pixels: 20 rad/s and 385 N
-        opened.point(x + right_end, y + top, click=True)
+        opened.click(x + right_end, y + top)
         opened.wait_for(f"{READY} !== {first!r}")
         title = opened.run("return document.querySelector('h3').innerText")
         values = {name: value for _, value, name in opened.run(VALUES)}

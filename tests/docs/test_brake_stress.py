@@ -4,12 +4,10 @@ import pandas as pd
 import pytest
 
 from docs import brake_stress
-from tests.needs import Need
-
-FINITE_ELEMENTS = Need("scikit-fem", modules=("skfem",))
+from tests import needs
 
 
-@FINITE_ELEMENTS.mark
+@needs.FINITE_ELEMENTS.mark
 def test_the_table_is_that_of_finite_elements():
     """Other elements of the same disc, twice as large, give the same stress."""
     table = pd.read_csv(brake_stress.TABLE)

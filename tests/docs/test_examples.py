@@ -174,9 +174,6 @@ def said_of_a_first_run(names: dict[str, Any]) -> None:
     separations = (kinds.iloc[-1000:] == "separation").sum()
     releases = (kinds.iloc[-1000:] == "stick_to_slip").sum()
     assert abs(separations - 2 * releases) <= 2
-    assert names["axes"][0, 1].get_xlim()[1] == 60
-    assert run["late"]["P"].attrs["units"] == "N"
-    assert names["dm"].floquet(names["case"].replace(Omega=15)).stable
     growth = names["growth"]
     assert (growth["growth_rate"] > 0).any()
     assert (growth["growth_rate"] < 0).any()

@@ -159,21 +159,3 @@ def test_the_clock_loses_nothing_by_rounding() -> None:
     time = Fraction(float(state.x[TIME])) + Fraction(float(state.x[TIME_LOW]))
     assert abs(time - exact) < 1e-17
     assert not step.advance_clock(model, state, Step(0, ORDER, 0.0, NOTHING))
-
-
-@pytest.mark.parametrize(
-    ("direction", "rate", "after"), [(1, -1e-9, 0.0), (-1, 1e-9, 0.0), (1, 1e-9, 1e-9)]
-)
-def test_slip_beyond_its_end_is_at_rest(direction: int, rate: float, after: float) -> None:
-    state = resting(engine_case(P).model, SLIP, direction, rate)
-    step.settle(state)
-    assert state.x[PHI_RATE] == after
-
-
-@pytest.mark.parametrize(("part", "left"), [(0.5, 1.0), (2.0, 0.0)])
-def test_a_run_that_is_cut_at_once_keeps_the_roots_of_its_start(part: float, left: float) -> None:
-    model = engine_case(P).model
-    state = build_state(model)
-    state.x[[KNOWN, KNOWN_FORCE]] = 1.0
-    step.advance_clock(model, state, Step(0, ORDER, part * step.JUST_BEGUN, NOTHING))
-    assert state.x[[KNOWN, KNOWN_FORCE]].tolist() == [left, left]

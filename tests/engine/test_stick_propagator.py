@@ -199,27 +199,6 @@ def test_a_spring_that_pulls_hard_already_leaves_less_time() -> None:
     )
 
 
-@pytest.mark.parametrize("law", [pytest.param(law, marks=COMPILES) for law in COUPLED])
-def test_without_vibration_stick_on_a_moving_surface_lasts_as_long_as_promised(law) -> None:
-    """The surface that follows the pull lags behind it."""
-    p = Parameters(N=300, Omega=5, n_diameters=2, **law)
-    model = engine_case(p).model
-    s = build_series(model, ORDER)
-    state = build_state(model)
-    pull = 0.6 * p.mu_s * p.N / p.r_0
-    response = model.modes.pull_rest.reshape(2, -1)
-    bent = pull * response[0] + p.k_p * p.Omega * response[1]
-    state.disc[:] = model.modes.rest + p.r_0 * bent
-    state.x[PSI] = (pull - p.c_p * p.Omega) / p.k_p - model.tangential @ state.z / p.r_0
-    length = stick_propagator.closed_form_length(model, s, state)
-    assert stick_propagator.SHORTEST_STICK <= length < stick_modes.LONGEST_STICK
-    stick_propagator.propagate_stick(model, s, length, state)
-    i, _ = instant(model, state)
-    pull, P = stick_loads(model, i, vertical_in_stick(model, i))
-    # amplitudes of a vibration that is rounding of the deflection, 1e-16 of it
-    assert pull == pytest.approx(p.mu_s * P, rel=1e-9)
-
-
 @pytest.mark.compiled
 @pytest.mark.parametrize("dampers", [{}, {"c": 1.0, "D_star": 1e-3}], ids=str)
 def test_events_samples_and_audit_within_an_advance(dampers: dict[str, float]) -> None:

@@ -20,6 +20,8 @@ from disc_model.data.variables import EVENT_KINDS, PHASES, attributes
 from disc_model.parameters import Parameters
 from disc_model.simulation.named_case import run_case
 from disc_model.studies.study import load_study
+from tests import damages
+from tests.damages import Groups
 from workflow.paper.judging_tables import COMPLIANT, ENERGIES, GROWTHS, POWERS
 from workflow.paper.measures import CaseView
 
@@ -31,7 +33,6 @@ SPECS = {
 }
 STORIES = Path(__file__).with_name("stories.yaml")
 TEXTS = yaml.safe_load(STORIES.read_text(encoding="utf-8"))
-Groups = dict[str, xr.Dataset]
 
 
 # ---- Cases
@@ -52,18 +53,13 @@ def simulated(*names: str, normalization: str = "as_published") -> dict[str, xr.
 
 @cache
 def groups_of(name: str) -> Groups:
-    """Return the datasets of a case, by the names of their groups; that of the case itself is ""."""
-    node = simulated()[name]
-    groups = {"": node.to_dataset()}
-    for child, group in node.children.items():
-        groups[str(child)] = group.to_dataset(inherit=False)
-    return groups
+    """Return the datasets of a case, by the names of their groups."""
+    return damages.groups_of(simulated()[name])
 
 
 def view(name: str, groups: Groups) -> CaseView:
     """Return the view of a case made of groups."""
-    tree = {f"/{group}": held for group, held in groups.items()}
-    return CaseView(name, xr.DataTree.from_dict(tree))
+    return CaseView(name, damages.tree_of(groups))
 
 
 def said_to_be(name: str, story: str | Mapping[str, Any]) -> CaseView:

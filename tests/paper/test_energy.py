@@ -1,7 +1,5 @@
 """The balance of powers: contact passes on what the slope supplies, and impacts take it."""
 
-from collections.abc import Sequence
-
 import numpy as np
 import pytest
 
@@ -17,18 +15,11 @@ SETTLES = Parameters(N=600, Omega=25, c=0.2)
 """The slider's damper takes nearly all."""
 
 
-def mean(history: Sequence[Powers]) -> Powers:
-    """Return means over the whole time.
-
-    The two hundred samples of a stage say little of powers that change their sign.
-    """
-    return Powers(*np.mean(history, axis=0).tolist())
-
-
 @pytest.mark.parametrize("p", [GROWS, SETTLES])
 def test_while_contact_lasts_what_the_slope_supplies_is_damped_or_gained(p: Parameters) -> None:
-    whole = mean(power_history(p, 30.0))
-    # 12,000 samples at random phases of the swing leave half a per cent
+    # of the whole time: the two hundred samples of a stage say little of powers that change their
+    # sign, and 12,000 at random phases of the swing leave half a per cent
+    whole = Powers(*np.mean(power_history(p, 30.0), axis=0).tolist())
     assert whole.impacts == pytest.approx(0, abs=0.01 * whole.supplied)
     assert whole.pulls == 0  # the contact force does not change its sign
     if p is GROWS:

@@ -84,7 +84,7 @@ class Stretching:
         """a of the static start: Newton's method in steps of N, derivatives by differences of a
         cubic, which are exact."""
         a = np.zeros(len(s), LONG)
-        for preload in np.linspace(0, 1, 41, dtype=LONG)[1:] * N:
+        for preload in np.linspace(0, 1, 11, dtype=LONG)[1:] * N:
             for _ in range(60):
                 left = w2 * a + self._pull(a) + preload * s
                 h = LONG(2) ** -30 * max(abs(a).max(), LONG(1e-9))

@@ -4,27 +4,20 @@ each other."""
 import numpy as np
 import pytest
 
-from disc_model import Disc, Parameters, plate_modes, simulate, steady_sliding
-from disc_model.disc.flexibility import contact_compliance
-from disc_model.disc.plate import modal_damping
+from disc_model import Disc, Parameters, simulate, steady_sliding
 from disc_model.simulation.states import static_start
 from tests.contact_laws import LAWS
 from tests.references import taylor
-from tests.references.growth import couple, steady_eigenvalues
+from tests.references.growth import steady_eigenvalues
 
 EACH_LAW = {"default": {}} | LAWS
 
 
 def eigenvalues(p):
     """Of steady sliding, by the reference, with the modes of `plate_modes`."""
-    modes = plate_modes(p)
-    l = modes["diameters"]
-    psi = modes["psi"]
-    values = p.model_dump() | {"contact_compliance": contact_compliance(p)}
-    offset, tangential = taylor.surface_of(p)
-    if tangential is None:
-        tangential = couple(offset, psi, l, p.r_0)
-    return steady_eigenvalues(values, modes["omega"], psi, l, modal_damping(p), tangential)
+    q = taylor.problem_of(p)
+    values = p.model_dump() | {"contact_compliance": q.C}
+    return steady_eigenvalues(values, np.sqrt(q.w2), q.s, q.l, q.d, q.t)
 
 
 ORTHONORMAL = {"normalization": "orthonormal", "friction_offset": "surface"}

@@ -83,7 +83,7 @@ SCENES_OF_OWN = {
     "free edge": (
         {"N": 400, "Omega": 30, "normalization": "orthonormal", "stretching": "free"},
         -0.003,
-        0.05,
+        0.03,
     ),
     "six diameters": ({"N": 300, "Omega": 40, "n_diameters": 6, "c": 0.3}, 0.001, 0.05),
     "bilateral": ({"N": 150, "Omega": 10, "c_p": 0.3, "contact": "bilateral"}, -0.004, 0.05),

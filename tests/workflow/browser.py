@@ -42,25 +42,25 @@ class Page:
     def open(self, file: Path) -> None:
         self.call("POST", "/url", {"url": file.resolve().as_uri()})
 
-    def run(self, script: str, *arguments: Any) -> Any:
+    def run(self, script: str) -> Any:
         """Result of the body of a JavaScript function."""
-        return self.call("POST", "/execute/sync", {"script": script, "args": list(arguments)})
+        return self.call("POST", "/execute/sync", {"script": script, "args": []})
 
-    def wait_for(self, script: str, *arguments: Any, seconds: float = 20.0) -> Any:
-        """The first result that is not false, null or empty; fails after some time."""
-        until = time.monotonic() + seconds
-        while not (found := self.run(script, *arguments)):
-            assert time.monotonic() < until, f"still waiting for {script} {arguments}"
+    def wait_for(self, script: str) -> Any:
+        """The first result that is not false, null or empty; fails after 20 s."""
+        until = time.monotonic() + 20
+        while not (found := self.run(script)):
+            assert time.monotonic() < until, f"still waiting for {script}"
             time.sleep(0.05)
         return found
 
-    def point(self, x: float, y: float, *, click: bool = False) -> None:
-        """Move the pointer to a place in the window, and click there."""
-        steps: list[dict[str, Any]] = [
-            {"type": "pointerMove", "x": round(x), "y": round(y), "duration": 0}
+    def click(self, x: float, y: float) -> None:
+        """Click at a place in the window."""
+        steps = [
+            {"type": "pointerMove", "x": round(x), "y": round(y), "duration": 0},
+            {"type": "pointerDown", "button": 0},
+            {"type": "pointerUp", "button": 0},
         ]
-        if click:
-            steps += [{"type": "pointerDown", "button": 0}, {"type": "pointerUp", "button": 0}]
         source = {
             "type": "pointer",
             "id": "mouse",

@@ -46,10 +46,6 @@ class Project:
         done = run(*self.command(*options), cwd=self.folder, fails=fails, timeout=900, **self.own)
         return done.stdout + done.stderr
 
-    def refused(self, *options: str) -> str:
-        """Run Snakemake, which must not succeed; what it says."""
-        return self.complete(*options, fails=True)
-
     def command(self, *options: str) -> list[str]:
         """The command of such a run."""
         named = []

@@ -77,7 +77,7 @@ def test_damaged_files(
     merged = results / "small_map" / "small_map.nc"
     if merged not in damaged:
         merged.unlink()  # else nothing asks for the batches
-    told = project.refused("-j2", "--keep-going")
+    told = project.complete("-j2", "--keep-going", fails=True)
     assert any(f"{path.relative_to(project.folder)}: cannot be read" in told for path in damaged)
     for path in damaged:
         path.unlink()
@@ -112,7 +112,7 @@ def test_every_fault_is_shown_and_nothing_runs(
     if file == SMALL:
         config = SMALL
     changed = replace(project, config=config)
-    shown = changed.refused("-j2")
+    shown = changed.complete("-j2", fails=True)
     assert [fault for fault in faults if fault not in shown] == []
     assert "Traceback" not in shown
     assert "Job stats" not in shown

@@ -2,18 +2,13 @@
 
 import subprocess
 import sys
-import threading
 from pathlib import Path
-from typing import Any
 
 import numba
 import pytest
-from filelock import FileLock, Timeout
-from numba.core.caching import FunctionCache
 
 from disc_model import Parameters, floquet, simulate
 from disc_model.engine import loop
-from disc_model.engine.jit import cache
 from tests.processes import python, run
 
 KERNEL = """
@@ -84,49 +79,6 @@ def test_a_folder_that_cannot_be_written_costs_time_not_the_result(tmp_path: Pat
     done = ask_for_a_kernel(tmp_path)
     assert done.stdout == "42 0\n"
     assert done.stderr.count("compiled kernels cannot be kept there") == 1
-
-
-# ---- Two processes that need the same kernel at once
-
-
-@pytest.mark.parametrize(("types", "waits"), [("types", True), ("other types", False)])
-def test_a_process_waits_only_while_another_compiles_the_same_kernel_for_the_same_types(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, types: str, waits: bool
-) -> None:
-    """A process that only had to load a kernel waited until another had compiled that kernel for
-    another law of contact."""
-    monkeypatch.setattr(cache, "folder", lambda: tmp_path)
-    entered = threading.Event()
-
-    def load() -> None:
-        with cache.lock("kernel", types):
-            entered.set()
-
-    with cache.lock("kernel", "types"):
-        loading = threading.Thread(target=load)
-        loading.start()
-        # seconds are plenty to lock a file of one's own
-        assert entered.wait(timeout=0.2 if waits else 10) != waits
-    loading.join()
-    assert entered.is_set()
-
-
-def test_processes_write_the_index_of_kernels_one_after_another(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """numba reads the index, chooses the next free file and writes the index again."""
-    monkeypatch.setattr(cache, "folder", lambda: tmp_path)
-    locked = []
-
-    def save(self: Any, sig: Any, data: Any) -> None:
-        others = FileLock(next(tmp_path.glob("index-*.lock")), timeout=0)
-        with pytest.raises(Timeout):
-            others.acquire()
-        locked.append(sig)
-
-    monkeypatch.setattr(FunctionCache, "save_overload", save)
-    cache.KernelCache.save_overload(object.__new__(cache.KernelCache), "types", None)
-    assert locked == ["types"]
 
 
 @pytest.mark.skipif(bool(numba.config.DISABLE_JIT), reason="nothing is compiled")
