@@ -9,8 +9,8 @@ from disc_model.engine.state import STICK
 from disc_model.simulation.states import static_start
 from tests.contact_laws import ALL_LAWS, COMPILES, COUPLE, LAWS
 from tests.references import stored, taylor
-from tests.references.agree import followed
 from tests.references.block import undamped_stick_slip
+from tests.validation.agree import followed
 
 # Kernels of each law take minutes to compile: the quick tests try the law that has both, the long
 # ones all.

@@ -10,7 +10,7 @@ from disc_model.engine.record import EVENT_ROW
 from disc_model.stability.return_map import ReturnMap
 from tests.contact_laws import COUPLE, COUPLED, EXPONENTIAL, FALLING, LAWS, VISCOUS
 from tests.references import stored, taylor
-from tests.references.agree import followed
+from tests.validation.agree import followed
 from tests.validation.test_friction_couple import compare_sliding
 
 P = Parameters(N=385, Omega=15.1, n_diameters=1)

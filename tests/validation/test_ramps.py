@@ -8,7 +8,7 @@ import pytest
 from disc_model import Parameters, Ramp
 from tests.contact_laws import ALL_LAWS, COMPILES
 from tests.references import taylor
-from tests.references.agree import followed
+from tests.validation.agree import followed
 
 #: s, what is promised.
 EVENT_TIMES = 1e-12
