@@ -30,6 +30,10 @@ class Command:
         """What a command prints that must succeed."""
         return self.run(*arguments, code=0)
 
+    def error(self, *arguments: str) -> str:
+        """What a command says that must be refused."""
+        return self.run(*arguments, code=2)
+
 
 @pytest.fixture
 def command(capsys: pytest.CaptureFixture[str]) -> Command:

@@ -27,7 +27,6 @@ OPTIONS = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE
 
 RETURNED = [
     "mode_choice.ModeChoice",
-    "stability.continuation.Branch",
     "stability.cycle.FloquetResult",
     "stability.sliding.SteadySliding",
 ]

@@ -315,8 +315,8 @@ class CaseView:
 
     @property
     def kept_span(self) -> Range:
-        """Span of time in s for which the case stores its events."""
-        attrs = self.events.attrs
+        """Span of time in s for which the case stores its events: all of it, if it states none."""
+        attrs = {"kept_from": 0.0, "kept_until": np.inf} | self.events.attrs
         stop = min(float(attrs["kept_until"]), self["time_reached"])
         return Range(float(attrs["kept_from"]), stop)
 
