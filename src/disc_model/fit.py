@@ -14,7 +14,7 @@ from pydantic import ConfigDict, Field
 
 from disc_model.arrays import Array
 from disc_model.disc.modes import plate_modes
-from disc_model.disc.plate import damping_ratios
+from disc_model.disc.plate import modal_damping
 from disc_model.display import brought
 from disc_model.errors import DiscModelError, Fault, ParameterError, raise_faults, suggestion
 from disc_model.parameters import Parameters, foreign_case
@@ -232,5 +232,5 @@ def _computed(
     kind, diameters, circles = re.findall(OF_MODES, quantity)[0]
     modes = plate_modes(case).set_index(["diameters", "circles"])
     modes["frequency"] = modes["omega"] / math.tau
-    modes["damping_ratio"] = damping_ratios(case)
+    modes["damping_ratio"] = modal_damping(case) / (2 * modes["omega"])
     return modes[kind].get((int(diameters), int(circles)), math.nan)

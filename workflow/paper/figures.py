@@ -109,8 +109,10 @@ def draw_displacements(ax: Axes, case: DataTree, samples: Dataset) -> None:
 def mark_thickness(ax: Axes, case: DataTree, w: DataArray) -> None:
     """Draw a bar as long as the disc is thick beside an axis of its displacement, if it finds room:
     plate theory is linear for less only."""
-    h = case["h"]
-    thickness = placed(w, float(h) / h.attrs["factor"])
+    p = Parameters.model_validate_json(case.attrs["parameters"])
+    if p.disc is not None:
+        return
+    thickness = placed(w, p.h)
     low, high = ax.get_ylim()
     if not thickness < 0.8 * (high - low):
         return

@@ -82,6 +82,8 @@ class CaseView:
 
     def __getitem__(self, name: str) -> float:
         """Return a scalar: a parameter, or one of `disc_model.data.variables.SCALARS`."""
+        if name in Parameters.model_fields:
+            return getattr(self.parameters, name)
         return float(self.node.variables[name].values)  # node[name] would make a dataset
 
     # ---- What the case is

@@ -180,9 +180,9 @@ are "added" to its columns."""
 COMMON = _variables(_TABLES["common"])
 """Variables of several quantities and of sweeps."""
 GROUPS = ("events", "final_state", "initial_state")  # groups in the file of a run, beside windows
-BESIDE_WINDOWS = frozenset({*GROUPS, *SCALARS, *Parameters.model_fields})
+BESIDE_WINDOWS = frozenset({*GROUPS, *SCALARS})
 """Groups and variables beside the windows in a file; no window may have such a name."""
-TAKEN = "must not be the name of a parameter or variable of results"
+TAKEN = "must not be the name of a variable of results"
 """The rule that says so."""
 CHOICES: dict[str, tuple[str, ...]] = {
     name: get_args(Parameters.model_fields[name].annotation)

@@ -231,8 +231,9 @@ def fate_of(case: DataTree, name: str = "poincare") -> list[str]:
     since = final_since(case, window_of(case, name))
     fate = f"first separation at {first:.2f}\u00a0s"
     if np.isnan(first):
-        ignored = {"bilateral": "separation ignored"}
-        fate = ignored.get(case["contact"].item(), "no separation")
+        fate = "no separation"
+        if Parameters.model_validate_json(case.attrs["parameters"]).contact == "bilateral":
+            fate = "separation ignored"
     if np.isnan(since):
         return [fate, "settling not shown here"]
     return [fate, f"final motion since {since:.0f}\u00a0s"]
