@@ -8,7 +8,7 @@ import tomllib
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any, NamedTuple, get_args
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -70,13 +70,8 @@ class CycleStatus(StatusBase):
     NON_FINITE = "non_finite", "The motion overflowed: check the parameters' magnitudes."
 
 
-GIVE_A_GUESS = "give the last state of a longer simulation as guess"
-"""How a message on a search without a cycle may end."""
-
-
 def with_advice(found: str, status: StatusBase) -> str:
-    """What was found, and then the advice of its status, which says in full what a message may end with."""
-    found = found.removesuffix(f": {GIVE_A_GUESS}")
+    """What was found, and then the advice of its status."""
     if found in ("", status.advice):
         return status.advice
     return f"{found}. {status.advice}"
@@ -184,10 +179,6 @@ BESIDE_WINDOWS = frozenset({*GROUPS, *SCALARS})
 """Groups and variables beside the windows in a file; no window may have such a name."""
 TAKEN = "must not be the name of a variable of results"
 """The rule that says so."""
-CHOICES: dict[str, tuple[str, ...]] = {
-    name: get_args(Parameters.model_fields[name].annotation)
-    for name in ("normalization", "contact", "contact_force", "friction_law", "stretching")
-}
 EXCLUDED = "excluded"
 """Status of points that a rule of the study leaves out."""
 TRUTH = {"comment": "1 for True, 0 for False, nan where there is neither"}
@@ -209,38 +200,43 @@ _CF_UNITS = {
 """Units of parameters as files have them."""
 
 
+def _of_parameter(name: str) -> Variable:
+    """A parameter, whose description is a comment if the table has a shorter name."""
+    description = Parameters.model_fields[name].description or name
+    text = _TABLES["parameters"].get(name, description)
+    unit = Parameters.unit(name) or "1"
+    comment = description if text != description else ""
+    return Variable(_CF_UNITS.get(unit, unit), text, comment=comment)
+
+
+def _of_bin(bound: str, variable: Variable) -> Variable:
+    """The least or greatest value of a variable within a bin."""
+    comment = f"within the bin; {variable.comment}".removesuffix("; ")
+    return variable._replace(long_name=f"{bound} {variable.long_name}", comment=comment)
+
+
+_OF_CASES = {
+    **{f"{name}_{end}": _of_bin(_BOUNDS[end], x) for name, x in SERIES.items() for end in _BOUNDS},
+    **{name: _of_parameter(name) for name in Parameters.model_fields},
+    **SERIES, **SCALARS, **PERTURBATIONS,
+}  # fmt: skip
+
+
 def attributes(name: str) -> Entries:
     """CF attributes of a variable of a run or of a parameter: units, long name, comment and, for a flag, the
     meanings of its values."""
-    stem, _, bound = name.rpartition("_")
-    known = SERIES | SCALARS | PERTURBATIONS
-    if bound in _BOUNDS and stem in SERIES:
-        variable = SERIES[stem]
-        remark = f"within the bin; {variable.comment}".removesuffix("; ")
-        text = f"{_BOUNDS[bound]} {variable.long_name}"
-        return variable._replace(long_name=text, comment=remark).attributes
-    if name in known:
-        return known[name].attributes
-    description = Parameters.model_fields[name].description or name
-    text = _TABLES["parameters"].get(name, description)
-    comment = ""
-    if text != description:
-        comment = description
-    choices = CHOICES.get(name, ())
-    unit = Parameters.unit(name) or "1"
-    return Variable(_CF_UNITS.get(unit, unit), text, choices, comment=comment).attributes
+    return _OF_CASES[name].attributes
 
 
 def flag_names(variable: Any) -> np.ndarray:
     """Values of a flag variable (a DataArray) as words, array of str of the same shape; words as they
     are, and "" for nan."""
-    values = variable.values
     if variable.dtype.kind in "UO":
         # as of words that xarray's where has masked
-        return np.where(variable.isnull(), "", values).astype(str)
+        return np.where(variable.isnull(), "", variable.values).astype(str)
     # the last one is that of a missing value
     known = np.array([*variable.attrs["flag_meanings"].split(), ""])
-    return np.asarray(known[np.where(np.isnan(values), -1, values).astype(int)])
+    return np.asarray(known[variable.fillna(-1).values.astype(int)])
 
 
 def stated_in(study: Any, what: str) -> Entries:
@@ -293,11 +289,9 @@ def message_of(result: Any) -> str:
     this package whose own status is "ok" only says its numbers again: that is ""."""
     status = getattr(result, "status", None)
     message = getattr(result, "message", "")
-    if not isinstance(status, StatusBase):
-        return message
-    if status == "ok":
+    if status == "ok" and isinstance(status, StatusBase):
         return ""
-    if getattr(status, "complete", False):
+    if not isinstance(status, StatusBase) or getattr(status, "complete", False):
         return message
     return with_advice(message, status)
 
