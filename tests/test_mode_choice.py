@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from disc_model import Disc, Parameters, choose_modes, steady_sliding
-from disc_model.mode_choice import RICH, UndecidedModes, frequency_error
+from disc_model.mode_choice import RICH, UndecidedModes, error_of
 from tests.blocks import STEEL
 from tests.refusals import refusal
 
@@ -26,10 +26,9 @@ def test_frequencies_meet_the_tolerance_with_the_fewest_modes(
     chosen = choice.parameters
     assert (chosen.n_diameters, chosen.n_circles) == size
     assert choice.error <= tolerance
-    assert choice.errors[size] == choice.error
     rich = p.replace(n_diameters=RICH[0], n_circles=RICH[1])
     smaller = chosen.replace(n_diameters=chosen.n_diameters - 1)
-    assert frequency_error(smaller, rich) > tolerance
+    assert error_of("frequencies", smaller, rich) > tolerance
 
 
 @pytest.mark.parametrize(
@@ -49,8 +48,7 @@ def test_growth_rates_converge(
     choice = choose_modes(case, **options)
     assert (choice.parameters.n_diameters, choice.parameters.n_circles) == size
     assert choice.modes == real
-    assert choice.error <= choice.tolerance
-    assert choice.rich == (2 * size[0], size[1] + 1)
+    assert choice.error <= options.get("tolerance", 1e-2)
     assert f"{real} real modes" in repr(choice)
 
 
@@ -64,7 +62,7 @@ def test_first_modes_of_a_table_are_compared_with_all_of_them() -> None:
     low = TABLE.replace(omega=[*TABLE.omega[:2], *(1e5 * l for l in range(2, 8))])
     choice = choose_modes(P.replace(disc=low, r_0=0.1), 0.05)
     assert choice.parameters.disc == low.first(2)
-    assert (choice.modes, choice.rich) == (3, (8,))
+    assert choice.modes == 3
 
 
 @pytest.mark.parametrize("quantity", ["frequencies", "sliding_growth"])

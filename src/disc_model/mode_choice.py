@@ -5,9 +5,9 @@ table is never compared with itself, because nothing tells whether all its modes
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import lru_cache, partial
+from functools import lru_cache
 from itertools import product
 from typing import Annotated, Literal
 
@@ -28,6 +28,7 @@ Size = tuple[int, ...]
 """Size of a model: (diameters, circles), or (modes,) of a table."""
 
 FREQUENCIES = "frequencies"
+DEFAULT_TOLERANCES = {FREQUENCIES: 1e-3, "growth": 1e-2, "sliding_growth": 1e-2}
 # Least tolerance, relative: the coupled frequencies of `RICH` change as much with more modes (5e-5 as
 # published, 2e-4 orthonormal, against 30 diameters and 8 circles).
 TRUSTED = 1e-4
@@ -46,18 +47,13 @@ class ModeChoice:
     Attributes
     ----------
     parameters : the case with the chosen n_diameters and n_circles, or with the first modes of its table
-    quantity, tolerance : as asked for
+    quantity : as asked for
     error : relative, of the coupled frequencies in the band, or of the growth rate
-    rich : (diameters, circles) of the largest model in the comparison; (modes,) for a table
-    errors : of each model that was tried, by size as in `rich`
     """
 
     parameters: Parameters
     quantity: str
-    tolerance: float
     error: float
-    rich: Size
-    errors: Mapping[Size, float]
 
     @property
     def modes(self) -> int:
@@ -115,23 +111,19 @@ def choose_modes(
     >>> dm.choose_modes(dm.Parameters(N=385, Omega=15.1), 1e-3).parameters.n_diameters
     3
     """
-    asked = tolerance or 1e-2
-    error_between: Callable[[Parameters, Parameters], float] = partial(_rate_error, quantity)
-    if quantity == FREQUENCIES:
-        asked = tolerance or 1e-3
-        error_between = frequency_error
-    errors: dict[Size, float] = {}
+    asked = tolerance or DEFAULT_TOLERANCES[quantity]
+    least = math.inf
     for size, *larger in _compared(case, quantity):
         chosen = _resized(case, size)
-        errors[size] = max(error_between(chosen, _resized(case, other)) for other in larger)
-        if errors[size] <= asked:
-            return ModeChoice(chosen, quantity, asked, errors[size], larger[-1], errors)
+        error = max(error_of(quantity, chosen, _resized(case, other)) for other in larger)
+        if error <= asked:
+            return ModeChoice(chosen, quantity, error)
+        least = min(least, error)
     advice = "enlarge the tolerance"
     if case.disc is not None:
         advice = "give a table with more modes, or a larger tolerance"
     elif case.friction_offset != 0 and case.contact_arc == 0:
         advice = "friction on the surface at a point does not converge: give contact_arc"
-    least = min(errors.values(), default=math.inf)
     best = f"no model has the {quantity} of larger ones, the best errs by {least:.2g}"
     raise UndecidedModes(f"n_diameters: undecided: {best}; {advice}")
 
@@ -167,35 +159,28 @@ def _resized(p: Parameters, size: Size) -> Parameters:
     return p.replace(n_diameters=size[0], n_circles=size[1])
 
 
-def frequency_error(p: Parameters, rich: Parameters) -> float:
-    """Largest relative error, against `rich`, of the coupled frequencies up to `BAND` times the
-    disc's lowest one; 1 if one is missing."""
-    mine, right = map(_frequencies, (p, rich))
-    right = right[right <= BAND * float(mode_arrays(rich).omega.min())]
+def error_of(quantity: str, p: Parameters, larger: Parameters) -> float:
+    """Relative error of a quantity against a larger model: the largest one of coupled frequencies up to
+    `BAND` times the disc's lowest one, or that of a growth rate; infinite if a value is missing."""
+    mine, right = (_values(quantity, case) for case in (p, larger))
+    if quantity == FREQUENCIES:
+        right = right[right <= BAND * float(mode_arrays(larger).omega.min())]
     if mine.size < right.size:
-        return 1.0
-    return min(1.0, float(np.max(np.abs(mine[: right.size] / right - 1.0), initial=0.0)))
-
-
-@lru_cache(maxsize=8)  # the larger model is the same for all
-def _frequencies(p: Parameters) -> Array:
-    """Coupled frequencies of a case, rad/s."""
-    return coupled_frequencies(p, contact_compliance(p))
-
-
-def _rate_error(quantity: str, p: Parameters, larger: Parameters) -> float:
-    """Relative error of a growth rate; infinite if one or both models have no such motion."""
-    mine, right = (_growth_rate(quantity, case) for case in (p, larger))
-    if mine == right:
+        return math.inf
+    mine = mine[: right.size]
+    if np.array_equal(mine, right):
         return 0.0
-    if math.isfinite(mine) and math.isfinite(right) and right:
-        return abs(mine / right - 1.0)
-    return math.inf
+    with np.errstate(divide="ignore", invalid="ignore"):
+        error = float(np.max(np.abs(mine / right - 1.0)))
+    return error if math.isfinite(error) else math.inf
 
 
-@lru_cache(maxsize=128)  # a larger model may be a candidate later
-def _growth_rate(quantity: str, p: Parameters) -> float:
-    """Growth rate of the stick-slip cycle or of steady sliding, 1/s; nan without it."""
+@lru_cache(maxsize=128)  # a larger model is the same for many, and may be a candidate later
+def _values(quantity: str, p: Parameters) -> Array:
+    """Coupled frequencies of a case, rad/s, or the growth rate of its stick-slip cycle or of steady
+    sliding, 1/s, nan without it."""
+    if quantity == FREQUENCIES:
+        return coupled_frequencies(p, contact_compliance(p))
     if quantity == "growth":
-        return floquet(p).growth_rate
-    return steady_sliding(p).growth_rate
+        return np.array([floquet(p).growth_rate])
+    return np.array([steady_sliding(p).growth_rate])

@@ -240,21 +240,17 @@ class Parameters(Strict):
         """Refuse parameters that are replaced, and laws of contact that need to know more of a disc
         given by its modes."""
         disc = self.disc
-        by = "damping_ratio is given"
-        if disc is not None:
-            by = "a disc is given: it is of the plate"
-        replaced = []
-        for name in self._replaced:
-            value = getattr(self, name)
-            kept = value == type(self).model_fields[name].default
-            replaced.append((kept, name, value, f"must be left out where {by}"))
-        surface = disc is None or disc.tangential or self.friction_offset != SURFACE
+        by = "damping_ratio is given" if disc is None else "a disc is given: it is of the plate"
+        rule = f"must be left out where {by}"
+        fields = type(self).model_fields
+        replaced = {name: getattr(self, name) for name in self._replaced}
         need = "must be a number for a disc whose table has no column tangential_per_sqrt_kg"
-        known = disc is None or not self.contact_arc or self.contact_compliance != RESIDUAL
         point = "must be a number beside contact_arc for a disc given by its modes: "
         point += "its static_compliance is that at a point"
+        surface = disc is None or disc.tangential or self.friction_offset != SURFACE
+        known = disc is None or not self.contact_arc or self.contact_compliance != RESIDUAL
         require(
-            *replaced,
+            *((value == fields[x].default, x, value, rule) for x, value in replaced.items()),
             (surface, "friction_offset", SURFACE, need),
             (known, "contact_compliance", RESIDUAL, point),
         )

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from disc_model.display import counted, frequencies_text
+from disc_model.display import modes_text
 from disc_model.errors import StatusBase
 from disc_model.parameters import Parameters
 
@@ -307,9 +307,7 @@ def values_text(
         if not told or values[name] in (field.default, str(field.default)):
             continue
         if name == "disc":
-            omega = dict(values[name])["omega"]
-            modes = counted(len(omega), "mode")
-            texts.append(f"a disc given by {modes} of {frequencies_text(omega)}")
+            texts.append(f"a disc given by {modes_text(dict(values[name])['omega'])}")
             continue
         shown = SHOWN.get(name) or Shown(name, name, unit_of_parameter(name))
         unit, factor = units.get(name, (shown.unit, shown.factor))
