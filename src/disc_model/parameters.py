@@ -17,7 +17,7 @@ from pydantic import (
     model_validator,
 )
 
-from disc_model.errors import Fault, ImplausibleValue, as_text, require
+from disc_model.errors import ImplausibleValue, as_text, require
 from disc_model.modal_disc import Disc
 from disc_model.provenance import content_key
 from disc_model.units import UNITS, Count, Finite, Real, Strict, in_si, must
@@ -324,8 +324,6 @@ DEFAULTS = {
 }
 
 
-def foreign_case(case: object) -> list[Fault]:
-    """Faults of an argument `case`, which must be `Parameters`."""
-    if isinstance(case, Parameters):
-        return []
-    return [Fault.of(("case",), case, "must be Parameters")]
+def require_case(case: object) -> None:
+    """Raise `ParameterError` for an argument `case` that is no `Parameters`."""
+    require((isinstance(case, Parameters), "case", case, "must be Parameters"))

@@ -16,8 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from disc_model.disc.plate import Array, mode_arrays, pad_factors
-from disc_model.errors import Fault, ModeError, ParameterError, as_text, raise_faults, require
-from disc_model.parameters import RESIDUAL, Parameters, foreign_case
+from disc_model.errors import Fault, ModeError, ParameterError, as_text, require
+from disc_model.parameters import RESIDUAL, Parameters, require_case
 
 HIGHEST_HARMONIC = 4096
 """Beyond it the plate is as if unbounded, unless the slider runs on its very edge."""
@@ -73,7 +73,7 @@ def residual_flexibility(case: Parameters) -> Flexibility:
     >>> f"{flexibility.residual:.3g} m/N"
     '3.17e-07 m/N'
     """
-    raise_faults(foreign_case(case))
+    require_case(case)
     kept = _modal_sum(case)
     if case.disc is not None:
         total = case.disc.static_compliance
