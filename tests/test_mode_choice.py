@@ -2,7 +2,6 @@
 
 from typing import Any
 
-import numpy as np
 import pytest
 
 from disc_model import Disc, Parameters, choose_modes, steady_sliding
@@ -11,7 +10,6 @@ from tests.blocks import STEEL
 from tests.refusals import refusal
 
 P = Parameters(N=385.0, Omega=15.1)
-TABLE = Disc(diameters=range(8), omega=1000.0 + np.arange(1.0, 9), amplitude=np.ones(8))
 
 
 @pytest.mark.parametrize(
@@ -58,22 +56,6 @@ def test_the_growth_rate_of_the_choice_is_that_of_many_modes() -> None:
     assert steady_sliding(chosen).growth_rate == pytest.approx(3.479, rel=2e-2)
 
 
-def test_first_modes_of_a_table_are_compared_with_all_of_them() -> None:
-    low = TABLE.replace(omega=[*TABLE.omega[:2], *(1e5 * l for l in range(2, 8))])
-    choice = choose_modes(P.replace(disc=low, r_0=0.1), 0.05)
-    assert choice.parameters.disc == low.first(2)
-    assert choice.modes == 3
-
-
-@pytest.mark.parametrize("quantity", ["frequencies", "sliding_growth"])
-@pytest.mark.parametrize("count", [1, 2, 8])
-def test_a_whole_table_is_never_the_answer(count: int, quantity: str) -> None:
-    """It was compared with itself, and its error given as 0."""
-    case = P.replace(disc=TABLE.first(count), r_0=0.1)
-    with pytest.raises(UndecidedModes, match="give a table with more modes"):
-        choose_modes(case, quantity=quantity)
-
-
 @pytest.mark.parametrize(
     ("options", "message"),
     [
@@ -85,3 +67,14 @@ def test_a_whole_table_is_never_the_answer(count: int, quantity: str) -> None:
 def test_wrong_arguments_are_refused(options: dict[str, Any], message: str) -> None:
     with refusal(message):
         choose_modes(P, **options)
+
+
+def test_a_table_is_refused() -> None:
+    disc = Disc(diameters=[0], omega=[1e3], amplitude=[1.0])
+    with refusal("disc=.*: must be left out: modes of a plate are chosen"):
+        choose_modes(P.replace(disc=disc))
+
+
+def test_friction_on_the_surface_at_a_point_converges_with_no_number_of_modes() -> None:
+    with pytest.raises(UndecidedModes, match="at a point does not converge: give contact_arc"):
+        choose_modes(STEEL, quantity="sliding_growth")

@@ -154,10 +154,6 @@ class Disc(Strict):
 
     __str__ = __repr__
 
-    def first(self, count: int) -> Disc:
-        """The disc with only the first `count` modes of its table."""
-        return self.replace(**{name: getattr(self, name)[:count] for name in self._columns})
-
     # ---- Files
 
     @classmethod

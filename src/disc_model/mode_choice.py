@@ -1,6 +1,4 @@
-"""How many modes a case needs: `choose_modes`. It is the smallest model that agrees with larger ones; a
-table is never compared with itself, because nothing tells whether all its modes are enough.
-"""
+"""How many modes a case needs: `choose_modes` finds the smallest model that agrees with larger ones."""
 
 from __future__ import annotations
 
@@ -18,14 +16,14 @@ from disc_model.arrays import Array
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import coupled_frequencies, mode_arrays
 from disc_model.display import counted
-from disc_model.errors import DiscModelError
+from disc_model.errors import DiscModelError, require
 from disc_model.parameters import Parameters
 from disc_model.stability.floquet import floquet
 from disc_model.stability.sliding import steady_sliding
 from disc_model.units import Finite, checked
 
-Size = tuple[int, ...]
-"""Size of a model: (diameters, circles), or (modes,) of a table."""
+Size = tuple[int, int]
+"""Size of a model: diameters and circles."""
 
 FREQUENCIES = "frequencies"
 DEFAULT_TOLERANCES = {FREQUENCIES: 1e-3, "growth": 1e-2, "sliding_growth": 1e-2}
@@ -46,7 +44,7 @@ class ModeChoice:
 
     Attributes
     ----------
-    parameters : the case with the chosen n_diameters and n_circles, or with the first modes of its table
+    parameters : the case with the chosen n_diameters and n_circles
     quantity : as asked for
     error : relative, of the coupled frequencies in the band, or of the growth rate
     """
@@ -89,8 +87,7 @@ def choose_modes(
     quantity : "frequencies", the coupled frequencies of disc and slider at rest up to twice the lowest one of the disc,
         compared with those of 20 diameters and 6 circles; "growth", the growth rate of the stick-slip cycle, which
         takes simulations, or "sliding_growth", that of steady sliding, each compared with two models of twice the
-        diameters, of which one has a circle more. Modes of a table are compared with the whole table, and by a
-        growth rate with twice as many too
+        diameters, of which one has a circle more
 
     Returns
     -------
@@ -100,10 +97,10 @@ def choose_modes(
     Raises
     ------
     ParameterError
-        If the quantity is unknown, or the tolerance is below 1e-4.
+        If the quantity is unknown, the tolerance is below 1e-4, or the disc is given by its modes.
     disc_model.mode_choice.UndecidedModes
-        If no model meets the tolerance, or too few modes of a table are left to tell. The growth rate does not
-        converge where friction acts on the surface at a point: give the arc of the pad.
+        If no model meets the tolerance. The growth rate does not converge where friction acts on the surface at a
+        point: give the arc of the pad.
 
     Examples
     --------
@@ -111,51 +108,41 @@ def choose_modes(
     >>> dm.choose_modes(dm.Parameters(N=385, Omega=15.1), 1e-3).parameters.n_diameters
     3
     """
+    rule = "must be left out: modes of a plate are chosen"
+    require((case.disc is None, "disc", case.disc, rule))
     asked = tolerance or DEFAULT_TOLERANCES[quantity]
     least = math.inf
-    for size, *larger in _compared(case, quantity):
+    for size, *larger in _candidates(quantity):
         chosen = _resized(case, size)
         error = max(error_of(quantity, chosen, _resized(case, other)) for other in larger)
         if error <= asked:
             return ModeChoice(chosen, quantity, error)
         least = min(least, error)
     advice = "enlarge the tolerance"
-    if case.disc is not None:
-        advice = "give a table with more modes, or a larger tolerance"
-    elif case.friction_offset != 0 and case.contact_arc == 0:
+    if case.friction_offset != 0 and case.contact_arc == 0:
         advice = "friction on the surface at a point does not converge: give contact_arc"
     best = f"no model has the {quantity} of larger ones, the best errs by {least:.2g}"
     raise UndecidedModes(f"n_diameters: undecided: {best}; {advice}")
 
 
-def _compared(p: Parameters, quantity: str) -> Iterator[tuple[Size, ...]]:
+def _candidates(quantity: str) -> Iterator[tuple[Size, ...]]:
     """Candidates, each with the larger models for comparison."""
-    if p.disc is not None:
-        # at least one of the first modes of a table must move under the slider
-        count = 1 + next(i for i, each in enumerate(p.disc.amplitude) if each)
-        most = len(p.disc.omega)
-        while count < most:
-            yield tuple(dict.fromkeys([(count,), (min(2 * count, most),), (most,)]))
-            count += 1 if quantity == FREQUENCIES else (count + 1) // 2
-    elif quantity == FREQUENCIES:
-        every = product(range(RICH[0] + 1), range(RICH[1] + 1))
+    if quantity == FREQUENCIES:
         # by the number of real modes, of which pairs are two
-        for size in sorted(every, key=lambda size: ((size[1] + 1) * (2 * size[0] + 1), size[1]))[
-            :-1
-        ]:
-            yield size, RICH
-    else:
-        for l, c in CANDIDATES + (LARGER if quantity == "sliding_growth" else ()):
-            yield (l, c), (2 * l, c), (2 * l, c + 1)
-
-
-# ---- Models of a case
+        every = product(range(RICH[0] + 1), range(RICH[1] + 1))
+        for size in sorted(every, key=lambda size: ((size[1] + 1) * (2 * size[0] + 1), size[1])):
+            if size != RICH:
+                yield size, RICH
+        return
+    sizes = [*CANDIDATES]
+    if quantity == "sliding_growth":
+        sizes += LARGER
+    for l, c in sizes:
+        yield (l, c), (2 * l, c), (2 * l, c + 1)
 
 
 def _resized(p: Parameters, size: Size) -> Parameters:
     """The case with the modes of a size."""
-    if p.disc is not None:
-        return p.replace(disc=p.disc.first(*size))
     return p.replace(n_diameters=size[0], n_circles=size[1])
 
 

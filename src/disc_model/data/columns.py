@@ -13,16 +13,8 @@ import xarray as xr
 from xarray import Dataset
 
 from disc_model.data.dataset import CONVENTIONS
-from disc_model.data.described import known_of
-from disc_model.data.variables import (
-    SCALARS,
-    SERIES,
-    STATUSES,
-    Entries,
-    Variable,
-    attributes,
-    message_of,
-)
+from disc_model.data.described import described
+from disc_model.data.variables import SCALARS, SERIES, STATUSES, Entries, attributes, message_of
 from disc_model.errors import Fault, ParameterError
 from disc_model.parameters import Parameters
 
@@ -94,15 +86,12 @@ def result_dataset(result: Any, function: str = "") -> Dataset:
 
 def _dataset_of_values(values: Mapping[Any, Any], kind: str) -> Dataset:
     """Numbers, words and one-dimensional arrays by name, with what the table says of them."""
-    known = known_of(kind)
     variables = {}
     for name, value in values.items():
         array = np.asarray(str(value) if isinstance(value, str) else value)
         if array.ndim <= 1 and array.dtype.kind in "biufcU":
-            said = known.get(name, Variable(units=""))
-            attrs = {} if said.flags else said.texts()
-            variables[name] = ((f"{name}_index",)[: array.ndim], array, attrs)
-    return Dataset(variables)
+            variables[name] = ((f"{name}_index",)[: array.ndim], array)
+    return described(Dataset(variables), kind)
 
 
 def _values_of(result: Any) -> Entries:

@@ -303,15 +303,15 @@ def values_text(
     factors from SI; of a disc that is given by its modes their number and frequencies."""
     texts = []
     for name, field in Parameters.model_fields.items():
-        told = name in values and name not in ("normalization", "contact")
-        if not told or values[name] in (field.default, str(field.default)):
+        value = values.get(name, field.default)
+        if name in ("normalization", "contact") or value in (field.default, str(field.default)):
             continue
         if name == "disc":
-            texts.append(f"a disc given by {modes_text(dict(values[name])['omega'])}")
+            texts.append(f"a disc given by {modes_text(dict(value)['omega'])}")
             continue
         shown = SHOWN.get(name) or Shown(name, name, unit_of_parameter(name))
         unit, factor = units.get(name, (shown.unit, shown.factor))
-        texts.append(f"{shown.symbol or name} = {_number_text(values[name], unit, factor)}")
+        texts.append(f"{shown.symbol or name} = {_number_text(value, unit, factor)}")
     return ", ".join(texts)
 
 
