@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
 from functools import lru_cache
 from itertools import product
 from typing import Annotated, Literal
@@ -15,7 +14,6 @@ from pydantic import Field
 from disc_model.arrays import Array
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import coupled_frequencies, mode_arrays
-from disc_model.display import counted
 from disc_model.errors import DiscModelError, require
 from disc_model.parameters import Parameters
 from disc_model.stability.floquet import floquet
@@ -38,31 +36,6 @@ CANDIDATES = ((1, 0), (2, 0), (3, 0), (4, 0), (6, 0), (8, 0), (6, 1), (8, 1))
 LARGER = ((10, 1), (10, 2), (14, 2), (10, 3), (14, 3))
 
 
-@dataclass(frozen=True)
-class ModeChoice:
-    """The smallest model that meets a tolerance, and the basis of the choice.
-
-    Attributes
-    ----------
-    parameters : the case with the chosen n_diameters and n_circles
-    quantity : as asked for
-    error : relative, of the coupled frequencies in the band, or of the growth rate
-    """
-
-    parameters: Parameters
-    quantity: str
-    error: float
-
-    @property
-    def modes(self) -> int:
-        """Number of real-valued modes: a pair, cosine and sine, counts as two."""
-        return int(np.sum(1 + (mode_arrays(self.parameters).diameters > 0)))
-
-    def __repr__(self) -> str:
-        modes = counted(self.modes, "real mode")
-        return f"ModeChoice({modes}, by {self.quantity}, error {self.error:.2g})"
-
-
 class UndecidedModes(DiscModelError):
     """No number of modes could be chosen; the message has the least error."""
 
@@ -73,7 +46,7 @@ def choose_modes(
     tolerance: Annotated[Finite, Field(ge=TRUSTED)] | None = None,
     *,
     quantity: Literal["frequencies", "growth", "sliding_growth"] = "frequencies",
-) -> ModeChoice:
+) -> Parameters:
     """Find the fewest real-valued modes with which a quantity's error is within ``tolerance``.
 
     A growth rate is that at the case's own speed and preload. More modes may take part at higher speeds, so
@@ -91,8 +64,8 @@ def choose_modes(
 
     Returns
     -------
-    ModeChoice
-        Its `parameters` are the case with the modes that were chosen.
+    Parameters
+        The case with the n_diameters and n_circles that were chosen.
 
     Raises
     ------
@@ -105,7 +78,7 @@ def choose_modes(
     Examples
     --------
     >>> import disc_model as dm
-    >>> dm.choose_modes(dm.Parameters(N=385, Omega=15.1), 1e-3).parameters.n_diameters
+    >>> dm.choose_modes(dm.Parameters(N=385, Omega=15.1), 1e-3).n_diameters
     3
     """
     rule = "must be left out: modes of a plate are chosen"
@@ -116,7 +89,7 @@ def choose_modes(
         chosen = _resized(case, size)
         error = max(error_of(quantity, chosen, _resized(case, other)) for other in larger)
         if error <= asked:
-            return ModeChoice(chosen, quantity, error)
+            return chosen
         least = min(least, error)
     advice = "enlarge the tolerance"
     if case.friction_offset != 0 and case.contact_arc == 0:
