@@ -69,13 +69,11 @@ def _columns(cells: pd.DataFrame) -> dict[str, Any]:
     fields = [HEADS[head][0] for head in heads]
     is_whole = {*fields} >= NEEDED and len({*fields}) == len(fields)
     require((is_whole, "columns", heads, f"must have each once: {KNOWN}"))
-    columns: dict[str, Any] = {field: [] for field in fields}
-    for mode, row in cells[1:].iterrows():
-        for head, cell in zip(heads, row, strict=True):
-            field, factor = HEADS[head]
-            try:
-                columns[field].append(float(cell) * factor)
-            except ValueError:
-                rule = f"must be a number (mode {mode}): {KNOWN}"
-                raise ParameterError(Fault.of((head,), cell, rule)) from None
+    columns = {}
+    for i, head in enumerate(heads):
+        field, factor = HEADS[head]
+        try:
+            columns[field] = [float(cell) * factor for cell in cells[i][1:]]
+        except ValueError as error:
+            raise ParameterError(Fault((head,), "", f"{error}; {KNOWN}")) from None
     return columns
