@@ -16,7 +16,8 @@ import numpy as np
 import pandas as pd
 from scipy.sparse.linalg import eigsh
 
-from disc_model.disc.section import Material, _matrices, _points, mesh_of
+from disc_model.disc.section import _matrices, _under_slider, mesh_of
+from disc_model.parameters import Parameters
 
 TABLE = Path(__file__).with_suffix(".csv")
 DRAWING = (
@@ -26,7 +27,7 @@ DRAWING = (
     (0.035, 0.067, -0.040, -0.032),
 )
 """Section of docs/brake_disc.md: r from, r to, z from, z to in m."""
-IRON = Material(110e9, 0.26, 7200.0)
+IRON = Parameters(N=0, Omega=0, E=110e9, nu=0.26, rho=7200)
 SLIDER = (0.1, 0.012)
 CLAMPED = 0.035
 """Radius at which the hat is held, m."""
@@ -51,7 +52,7 @@ def stress_per_speed(size: float) -> tuple[float, np.ndarray]:
     mesh = mesh_of(DRAWING, size)
     element = skfem.ElementComposite(*[skfem.ElementQuad2()] * 3)
     basis = skfem.Basis(mesh, element, intorder=6)
-    points = _points(basis, SLIDER)
+    unknowns, _ = _under_slider(basis, SLIDER)
     held = basis.get_dofs(lambda x: x[0] < CLAMPED + 1e-9).all()
     stiffness, mass = _matrices(basis, DIAMETERS, IRON)
     free = basis.complement_dofs(held)
@@ -64,7 +65,7 @@ def stress_per_speed(size: float) -> tuple[float, np.ndarray]:
     shape[free] = shapes[:, fed]
 
     # the speed of the surface is omega times its displacement
-    shape /= omega * abs(shape[points.unknowns[1]])
+    shape /= omega * abs(shape[unknowns[1]])
     stress = _von_mises(basis, shape)
     r = basis.global_coordinates().value[0]
     weights = (basis.dx * r).ravel()
