@@ -52,7 +52,7 @@ def stress_per_speed(size: float) -> tuple[float, np.ndarray]:
     mesh = mesh_of(DRAWING, size)
     element = skfem.ElementComposite(*[skfem.ElementQuad2()] * 3)
     basis = skfem.Basis(mesh, element, intorder=6)
-    unknowns, _ = _under_slider(basis, SLIDER)
+    along_path = _under_slider(basis, SLIDER)[0][1]
     held = basis.get_dofs(lambda x: x[0] < CLAMPED + 1e-9).all()
     stiffness, mass = _matrices(basis, DIAMETERS, IRON)
     free = basis.complement_dofs(held)
@@ -65,7 +65,7 @@ def stress_per_speed(size: float) -> tuple[float, np.ndarray]:
     shape[free] = shapes[:, fed]
 
     # the speed of the surface is omega times its displacement
-    shape /= omega * abs(shape[unknowns[1]])
+    shape /= omega * abs(shape[along_path])
     stress = _von_mises(basis, shape)
     r = basis.global_coordinates().value[0]
     weights = (basis.dx * r).ravel()

@@ -84,7 +84,7 @@ class CaseView:
         """Return a scalar: a parameter, or one of `disc_model.data.variables.SCALARS`."""
         if name in Parameters.model_fields:
             return getattr(self.parameters, name)
-        return float(self.node.variables[name].values)  # node[name] would make a dataset
+        return float(self.node.variables[name])  # node[name] would make a dataset
 
     # ---- What the case is
 

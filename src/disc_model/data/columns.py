@@ -13,8 +13,15 @@ import xarray as xr
 from xarray import Dataset
 
 from disc_model.data.dataset import CONVENTIONS
-from disc_model.data.described import described
-from disc_model.data.variables import SCALARS, SERIES, STATUSES, Entries, attributes, message_of
+from disc_model.data.variables import (
+    SCALARS,
+    SERIES,
+    STATUSES,
+    Entries,
+    attributes,
+    described,
+    message_of,
+)
 from disc_model.errors import Fault, ParameterError
 from disc_model.parameters import Parameters
 

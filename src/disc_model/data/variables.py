@@ -1,14 +1,17 @@
 """The table of variables: meaning and unit of each, and the meanings of flags."""
 
+from __future__ import annotations
+
 import enum
 import json
 import math
 import re
 import tomllib
+from collections import ChainMap
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +19,9 @@ from numpy.typing import NDArray
 from disc_model.display import modes_text
 from disc_model.errors import StatusBase
 from disc_model.parameters import Parameters
+
+if TYPE_CHECKING:
+    from xarray import Dataset
 
 _TABLES = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
 WORDS = {name: tuple(words) for name, words in _TABLES["words"].items()}
@@ -226,6 +232,32 @@ def attributes(name: str) -> Entries:
     """CF attributes of a variable of a run or of a parameter: units, long name, comment and, for a flag, the
     meanings of its values."""
     return _OF_CASES[name].attributes
+
+
+def known_of(kind: str) -> Mapping[str, Variable]:
+    """The variables of a quantity, of a class of results, or of a function of plain numbers."""
+    own = OF_QUANTITIES.get(kind, {}).values()
+    return ChainMap(OF_RESULTS.get(kind, {}), *own, COMMON)
+
+
+def described(
+    data: Dataset, kind: str, options: Mapping[str, Any] = MappingProxyType({})
+) -> Dataset:
+    """A dataset of a quantity, or of a class of results, whose variables say what they are.
+
+    data : what the table does not know of it stays as it is
+    options : of the quantity, which may name the parameter of which values are
+    """
+    known = known_of(kind)
+    said = data.copy()
+    for name in known.keys() & said.variables.keys():
+        variable = said.variables[name]
+        texts = known[str(name)].texts(options)
+        if variable.dtype.kind in "UO":  # words themselves have no unit
+            texts.pop("units", None)
+        kept = {key: x for key, x in variable.attrs.items() if key not in TEXTS}
+        variable.attrs = {**texts, **kept}
+    return said
 
 
 def flag_names(variable: Any) -> np.ndarray:

@@ -18,8 +18,7 @@ from pydantic import AfterValidator, BeforeValidator, Field, model_validator
 from xarray import Dataset
 
 from disc_model.data.coded import words
-from disc_model.data.described import described
-from disc_model.data.variables import OF_QUANTITIES, Variable
+from disc_model.data.variables import OF_QUANTITIES, Variable, described
 from disc_model.errors import DiscModelError, Fault, ParameterError, suggestion
 from disc_model.parameters import Parameters, require_case
 from disc_model.simulation.case import Start
