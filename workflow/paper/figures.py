@@ -109,7 +109,8 @@ def draw_displacements(ax: Axes, case: DataTree, samples: Dataset) -> None:
 def mark_thickness(ax: Axes, case: DataTree, w: DataArray) -> None:
     """Draw a bar as long as the disc is thick beside an axis of its displacement, if it finds room:
     plate theory is linear for less only."""
-    thickness = placed(w, Parameters.model_validate_json(case.attrs["parameters"]).h)
+    h = case["h"]
+    thickness = placed(w, float(h) / h.attrs["factor"])
     low, high = ax.get_ylim()
     if not thickness < 0.8 * (high - low):
         return

@@ -178,7 +178,8 @@ def poincare(case: DataTree, below: Cases = ()) -> Figure:
         draw_sections(row, each)
         values = [value_text(each[name]) for name in ("N", "Omega")]
         row[0].set_title(", ".join([*values, *fate_of(each)]))
-        row[1].set_title(f"disc of thickness {value_text(each['h'])}")
+        if "h" in each:  # of a plate
+            row[1].set_title(f"disc of thickness {value_text(each['h'])}")
     for column in rows.T:
         compare(column)
     return figure
