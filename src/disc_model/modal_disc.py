@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from functools import partial
-from itertools import combinations
+from itertools import combinations, pairwise
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Self
 
 from pydantic import Field, field_validator, model_validator
@@ -48,6 +48,8 @@ class Disc(Strict):
         diameters amplitude. Needed for ``friction_offset="surface"`` alone
     static_compliance : of the whole disc under a point load at the slider (m/N, > 0), from which the compliance of
         the modes that are left out follows; None if it is not known
+    radii : where shapes are known (m, ascending, two or more); none if they are not
+    shapes : of each mode, its displacement at these radii, in sign and scale that of the amplitude (kg^-1/2)
 
     Raises
     ------
@@ -62,9 +64,7 @@ class Disc(Strict):
     'ok'
     """
 
-    diameters: Annotated[
-        tuple[Annotated[Count, Field(ge=0, le=60)], ...], Field(min_length=1, max_length=MOST_MODES)
-    ]
+    diameters: tuple[Annotated[Count, Field(ge=0, le=60)], ...]
     omega: tuple[Annotated[Finite, between(FREQUENCIES)], ...]
     amplitude: tuple[Finite, ...]
     damping_ratio: tuple[Annotated[Finite, Field(ge=0, lt=1)], ...] = Field(
@@ -73,6 +73,8 @@ class Disc(Strict):
     circles: tuple[Natural, ...] = Field((), validate_default=True)
     tangential: tuple[Finite, ...] = ()
     static_compliance: Annotated[Positive, Unit("m/N")] | None = None
+    radii: tuple[Annotated[Positive, Unit("m")], ...] = ()
+    shapes: tuple[tuple[Finite, ...], ...] = ()
 
     _columns: ClassVar = (
         "diameters",
@@ -81,6 +83,7 @@ class Disc(Strict):
         "damping_ratio",
         "circles",
         "tangential",
+        "shapes",
     )
 
     if TYPE_CHECKING:  # for type checkers: any sequence of numbers will do
@@ -91,22 +94,30 @@ class Disc(Strict):
     def _consistent(self) -> Self:
         """Check the rules between columns, and refuse modes that are given twice."""
         count = len(self.diameters)
+        rule = f"must be 1 to {MOST_MODES} modes"
+        require((1 <= count <= MOST_MODES, "diameters", count, rule))
         rules: list[Check] = []
         for name in self._columns:
             length = len(getattr(self, name))
-            good = length == count or (name == "tangential" and not length)
+            good = length == count or not (length or name in ("omega", "amplitude"))
             rules.append((good, name, length, f"must be as many as diameters, {count}"))
         require(*rules)
-        # no half of a pair without diameters has its node under the slider
-        still = all(self.diameters[i] or not value for i, value in enumerate(self.tangential))
+
+        lengths = {len(shape) for shape in self.shapes}
+        known = lengths == {len(self.radii)} and len(self.radii) > 1
+        rule = "must be two or more that ascend, with a value of the shape of every mode at each"
+        ascend = all(inner < outer for inner, outer in pairwise(self.radii))
+        still = all(value == 0 for l, value in zip(self.diameters, self.tangential) if l == 0)  # noqa: B905
         at_axis = "must be 0 for a mode without nodal diameters"
+        require(
+            (ascend and (known or not (lengths or self.radii)), "radii", [*self.radii], rule),
+            # no half of a pair has its node under the slider
+            (still, "tangential", [*self.tangential], at_axis),
+        )
         low, high = AMPLITUDES
         largest = max(map(abs, self.amplitude))
         rule = f"must be within {low:g} and {high:g}"
-        require(
-            (still, "tangential", [*self.tangential], at_axis),
-            (low <= largest <= high, "largest amplitude", largest, rule),
-        )
+        require((low <= largest <= high, "largest amplitude", largest, rule))
         self._refuse_repeated_modes()
         return self
 
@@ -175,8 +186,8 @@ class Disc(Strict):
         return disc_of_table(regular_file(path))
 
     def to_csv(self, path: str | os.PathLike[str]) -> None:
-        """Write the table that `from_csv` reads, with enough digits to restore each number exactly. The
-        static compliance, for which it has no column, is left out.
+        """Write the table that `from_csv` reads, with enough digits to restore each number exactly. Shapes and
+        the static compliance, for which it has no columns, are left out.
 
         Raises `ParameterError` if the path is not that of a file,
         `disc_model.data.dataset.WriteError` if it cannot be written. `from_csv` has an example.
@@ -265,8 +276,8 @@ class Disc(Strict):
         Returns
         -------
         Disc
-            Modes ordered by frequency; ``circles`` numbers those of equal nodal diameters. Tangential amplitudes are
-            those of the surface under the slider.
+            Modes ordered by frequency; ``circles`` numbers the modes of equal nodal diameters. Shapes are those at the
+            height of the slider, tangential amplitudes those of the surface there.
 
         Raises
         ------

@@ -9,6 +9,7 @@ import pytest
 
 import disc_model as dm
 from disc_model.disc.flexibility import residual_flexibility
+from disc_model.disc.plate import mode_shapes
 from tests import needs
 
 pytestmark = needs.FINITE_ELEMENTS.mark
@@ -58,6 +59,10 @@ def test_the_plate_is_confirmed() -> None:
     assert list(disc.diameters) == plate["diameters"].tolist()
     np.testing.assert_allclose(disc.omega, plate["omega"], rtol=5e-3)
     np.testing.assert_allclose(disc.amplitude, plate["psi"], rtol=5e-3)
+    shapes = mode_shapes(P, np.array(disc.radii))
+    errors = np.abs(disc.shapes - shapes)
+    largest = np.abs(shapes).max(axis=1, keepdims=True)
+    assert np.all(errors < 5e-3 * largest)
 
 
 def test_a_slender_ring_bends_and_twists_as_in_the_textbook() -> None:
@@ -124,7 +129,7 @@ def test_the_page_does_what_it_says(tmp_path: Path, monkeypatch: pytest.MonkeyPa
     exec(first + drawing, phrase)
     disc = phrase["disc"]
     assert isinstance(disc, dm.Disc)
-    assert dm.Disc.from_csv("disc.csv") == disc
+    assert dm.Disc.from_csv("disc.csv") == disc.replace(radii=(), shapes=())
     count = len(of_table.omega)
     np.testing.assert_allclose(disc.omega[:count], of_table.omega, rtol=0.01)
     np.testing.assert_allclose(disc.amplitude[:count], of_table.amplitude, rtol=0.01)

@@ -39,6 +39,10 @@ def test_modes_of_the_free_disc_agree_with_the_paper() -> None:
     omega, psi = plate_modes(P)[["omega", "psi"]].to_numpy().T
     assert_allclose(omega, [1491.927, 1516.757, 1823.881, 2774.194, 4383.044], rtol=0, atol=5.1e-4)
     assert_allclose(psi**2, [1.70575, 66.79457, 2.35417, 1.32275, 0.96751], rtol=0, atol=5.1e-6)
+    # what the modes give way under a unit force
+    each = psi**2 / omega**2
+    total = float(np.sum(each))
+    assert mode_arrays(P).flexibility == pytest.approx(total, rel=1e-14)
 
 
 def test_slider_at_rest_agrees_with_the_papers_ten_numbers() -> None:

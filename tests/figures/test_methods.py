@@ -537,7 +537,7 @@ REFUSED = {
     ),
     "most=0: must be": lambda: dm.plot_modes(CASE, 0),
     "n_diameters=-1: must be >= 0": lambda: dm.plot_modes(CASE.replace(n_diameters=-1)),
-    "disc.*must be a plate": lambda: dm.plot_modes(CASE.replace(disc=DISC)),
+    "disc.*radii": lambda: dm.plot_modes(CASE.replace(disc=DISC)),
     "windows='lat': the run did not record": lambda: run().plot("lat"),
     r"variables=.*\['v'\].*did not record v": lambda: run().plot("late", variables=["v"]),
     "x='v': is not among the samples": lambda: run().plot_phase_portrait("late", x="v"),

@@ -102,9 +102,7 @@ def contact_compliance(p: Parameters) -> float:
 
 def _modal_sum(p: Parameters) -> float:
     """Sum of psi^2 / omega^2 over the modes of a case, m/N."""
-    modes = mode_arrays(p)
-    with np.errstate(over="ignore"):
-        total = float(np.sum((modes.psi / modes.omega) ** 2))
+    total = mode_arrays(p).flexibility
     if not total < np.inf:
         rule = "static flexibility of the modes must be within the range of numbers"
         raise ModeError(f"E={as_text(p.E)}, h={as_text(p.h)}, b={as_text(p.b)}: {rule}")

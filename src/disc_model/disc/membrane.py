@@ -96,12 +96,12 @@ class Plane:
         r, kg^-1/2, and their derivatives, both (n_modes, len(r))."""
         one, other = pair
         share = 0.5 if one == other else 1.0
-        value = share * g[one.mode]
-        slope = share * slopes[one.mode]
-        along = slope * slopes[other.mode]
-        across = -one.n * other.n * value * g[other.mode] / self.r**2
-        shear = one.n * value * slopes[other.mode] + other.n * g[other.mode] * slope
-        return self._scaled(along, across, shear / self.r)
+        along = share * slopes[one.mode] * slopes[other.mode]
+        across = -share * one.n * other.n * g[one.mode] * g[other.mode] / self.r**2
+        shear = (
+            one.n * g[one.mode] * slopes[other.mode] + other.n * g[other.mode] * slopes[one.mode]
+        )
+        return self._scaled(along, across, share * shear / self.r)
 
     def energy(self, n: int, strains: Array) -> Array:
         """The matrix G of strains of the harmonic n, in columns, after displacements have relaxed

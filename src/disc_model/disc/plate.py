@@ -43,6 +43,13 @@ class Modes:
         for column in vars(self).values():
             column.setflags(write=False)
 
+    @property
+    def flexibility(self) -> float:
+        """Static flexibility under the slider: the sum of psi^2 / omega^2, m/N; infinite beyond the
+        range of floats."""
+        with np.errstate(over="ignore"):
+            return float(np.sum((self.psi / self.omega) ** 2))
+
 
 def mode_arrays(p: Parameters) -> Modes:
     """The modes of `plate_modes` as read-only arrays, the same at every call."""
@@ -71,19 +78,25 @@ def tangential_amplitudes(p: Parameters) -> Array:
     """Amplitudes of the modes along the slider's path where friction acts, kg^-1/2, shape
     (n_modes,); under a pad, their means over its arc. At a height z of ``friction_offset`` above the
     middle plane they are -(z/r_0) l psi; 0 in that plane."""
+    if p.disc is not None and p.friction_offset == SURFACE:
+        return np.array(p.disc.tangential) * pad_factors(mode_arrays(p).diameters, p.contact_arc)
     modes = mode_arrays(p)
     height = p.friction_offset
     if height == SURFACE:
-        if p.disc is not None:
-            return np.array(p.disc.tangential) * pad_factors(modes.diameters, p.contact_arc)
         height = p.h / 2
     return -float(height) / p.r_0 * modes.diameters * modes.psi
 
 
 def mode_shapes(p: Parameters, r: Array) -> Array:
-    """Amplitudes of the modes of a plate at radii r (m, shape (k,)), in kg^-1/2, (n_modes, k); at r_0
-    those of `modes_at_point`. Raises ParameterError for a disc that is given by its modes."""
-    radial_range(p)
+    """Amplitudes of the modes at radii r (m, shape (k,)), in kg^-1/2, (n_modes, k); at r_0 those of
+    `modes_at_point`. For a table they are splines through its shapes. Raises ParameterError if it
+    has none."""
+    if p.disc is not None:
+        from scipy.interpolate import make_interp_spline  # few callers need it
+
+        radial_range(p)
+        degree = min(3, len(p.disc.radii) - 1)
+        return np.asarray(make_interp_spline(p.disc.radii, p.disc.shapes, k=degree, axis=1)(r))
     if p.n_diameters < 0:  # a rigid disc
         return np.zeros((0, len(r)))
     shapes = _shapes(p.a / p.b, p.nu, p.n_diameters, p.n_circles)
@@ -95,24 +108,19 @@ def mode_slopes(p: Parameters, r: Array) -> tuple[Array, Array]:
     """Amplitudes of the modes of a plate at radii r (m, shape (k,)), and their derivatives by r, in
     kg^-1/2 and kg^-1/2 m^-1, both (n_modes, k)."""
     shapes = _shapes(p.a / p.b, p.nu, p.n_diameters, p.n_circles)
-    lam = shapes.lam[:, None]
-    value, slope, logs = _with_slope(shapes.l[:, None], lam * (r / p.b))
-    factors = shapes.coefficients[..., None] * np.exp(logs - shapes.exponents[..., None])
-    norm = shapes.norm[:, None] ** -0.5
-    if p.normalization != "orthonormal":
-        norm = np.exp(shapes.exponents[0, :, None]) / shapes.coefficients[0, :, None]
+    value, slope = shapes.with_slopes(r / p.b, p.normalization == "orthonormal")
     scale = shapes.around[:, None] / np.sqrt(p.rho * p.h * p.b**2)
-    amplitudes = scale * (norm * np.sum(factors * value, axis=0))
-    slopes = scale * (norm * (lam * np.sum(factors * slope, axis=0))) / p.b
-    return amplitudes, slopes
+    return scale * value, scale * slope / p.b
 
 
 def radial_range(p: Parameters) -> tuple[float, float]:
-    """Least and greatest radius (m) of a plate; raises ParameterError for a disc that is given by its
-    modes."""
-    rule = "must be a plate: only amplitudes under the slider are known"
-    require((p.disc is None, "disc", p.disc, rule))
-    return p.a, p.b
+    """Least and greatest radius (m) of the known shapes; raises ParameterError if the table of a
+    disc has none."""
+    if p.disc is None:
+        return p.a, p.b
+    rule = "must have shapes: only amplitudes under the slider are known"
+    require((p.disc.radii, "disc.radii", p.disc.radii, rule))
+    return p.disc.radii[0], p.disc.radii[-1]
 
 
 def coupled_frequencies(p: Parameters, compliance: float = 0.0) -> Array:
@@ -238,6 +246,18 @@ class _Shapes:
             rule = "overflows when its coefficient of J_l is 1; use fewer diameters or normalization='orthonormal'"
             raise ModeError(f"normalization='as_published': {mode} {rule}")
         return amplitude
+
+    def with_slopes(self, x: Array, orthonormal: bool) -> tuple[Array, Array]:
+        """R and its derivative at radii x (k,) of every mode in the requested normalisation, both
+        (n, k)."""
+        value, slope, logs = _with_slope(self.l[:, None], self.lam[:, None] * x)
+        factors = self.coefficients[..., None] * np.exp(logs - self.exponents[..., None])
+        scale = self.norm**-0.5
+        if not orthonormal:
+            scale = np.exp(self.exponents[0]) / self.coefficients[0]
+        R = np.sum(factors * value, axis=0)
+        rate = self.lam[:, None] * np.sum(factors * slope, axis=0)
+        return scale[:, None] * R, scale[:, None] * rate
 
 
 @lru_cache(maxsize=256)

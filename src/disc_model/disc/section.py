@@ -47,14 +47,14 @@ def disc_of_section(
     skfem = brought("skfem", "fe")
     element = skfem.ElementComposite(*[skfem.ElementQuad2()] * 3)
     basis = skfem.Basis(mesh, element, intorder=6)
-    unknowns, side = _under_slider(basis, slider)
+    measured, radii, side = _measured(basis, slider)
     held = basis.get_dofs(lambda x: np.broadcast_to(clamped(x), x.shape[1:])).all()
     rule = "must hold nodes of the section: coordinates are in m"
     require((len(held) > 0, "clamped", len(held), rule))
 
     tables = []
     for l in range(MOST_DIAMETERS + 1):
-        omega, moves = _harmonic(basis, l, solid, held, unknowns, math.tau * highest_Hz)
+        omega, moves = _harmonic(basis, l, solid, held, measured, math.tau * highest_Hz)
         if l > 1 and len(omega) == 0:  # more nodal diameters only stiffen the disc
             break
         columns = {
@@ -65,14 +65,16 @@ def disc_of_section(
             # the half of a pair that moves as sin(l theta) has u_theta = -v cos(l theta); seen from
             # below, displacement towards the slider and the sense of rotation are reversed
             "tangential": side * moves[:, 1],
+            "shapes": moves[:, 2:].tolist(),
         }
         tables.append(pd.DataFrame(columns))
     modes = pd.concat(tables).sort_values("omega")
     moving = modes[modes["amplitude"] > UNMOVED * modes["amplitude"].max()]
     rule = "must be above a mode that moves under the slider"
     require((len(moving), "highest_Hz", highest_Hz, rule))
+    damping_ratios = [solid.damping_ratio] * len(moving)
     fields: Any = moving.to_dict("list")
-    return Disc(**fields, damping_ratio=[solid.damping_ratio] * len(moving))
+    return Disc(**fields, damping_ratio=damping_ratios, radii=radii.tolist())
 
 
 def mesh_of(rectangles: Iterable[Iterable[float]], size: float) -> Any:
@@ -110,23 +112,30 @@ def _divided(ends: Array, size: float) -> Array:
     return np.unique(np.concatenate(parts))
 
 
-def _under_slider(basis: Any, slider: Any) -> tuple[Indices, int]:
-    """Numbers of the unknowns of the slider's node, displacement normal to the disc and along its path;
-    and 1 if the slider is on the lower face of the disc, -1 on the upper one."""
+def _measured(basis: Any, slider: Any) -> tuple[Indices, Array, int]:
+    """What is read from the shapes of the section: the numbers of the unknowns, namely displacement of the
+    slider's node normal to the disc and along its path, then vertical displacements of the nodes at
+    its height; radii of these nodes, m; and 1 if the slider is on the lower face, -1 on the upper one."""
     mesh = basis.mesh
     require((np.shape(slider) == (2,), "slider", slider, "must be two numbers, r and z"))
     apart = np.hypot(*(mesh.p.T - slider).T)
     node = apart.argmin()
     require((apart[node] < SAME_PLACE, "slider", slider, "must be a node of the mesh"))
+
     touching = mesh.t[:, np.any(mesh.t == node, axis=0)]
-    return basis.nodal_dofs[1:, node], 2 * int(mesh.p[1, touching].mean() > slider[1]) - 1
+    side = 2 * int(mesh.p[1, touching].mean() > slider[1]) - 1
+    vertical = basis.split_indices()[1]
+    r, z = basis.doflocs[:, vertical]
+    level = np.abs(z - slider[1]) < SAME_PLACE
+    radii, first = np.unique(r[level], return_index=True)
+    return np.concatenate([basis.nodal_dofs[1:, node], vertical[level][first]]), radii, side
 
 
 def _harmonic(
-    basis: Any, l: int, solid: Parameters, held: Any, unknowns: Indices, highest: float
+    basis: Any, l: int, solid: Parameters, held: Any, measured: Indices, highest: float
 ) -> tuple[Array, Array]:
     """Find the modes with l nodal diameters up to the highest frequency (rad/s): their frequencies,
-    and values of some unknowns (modes, unknowns), of which the first is not negative."""
+    and values of the measured unknowns (modes, unknowns), of which the first is not negative."""
     stiffness, mass = _matrices(basis, l, solid)
     if l == 0:  # rotation about the axis is uncoupled from the other displacements
         held = np.union1d(held, basis.split_indices()[2])
@@ -150,7 +159,7 @@ def _harmonic(
     order = order[squares[order] <= highest**2]
     whole = np.zeros((basis.N, len(order)))
     whole[free] = shapes[:, order]
-    moves = whole[unknowns].T
+    moves = whole[measured].T
     return np.sqrt(squares[order]), np.where(moves[:, :1] < 0, -moves, moves)
 
 

@@ -121,7 +121,7 @@ def plot_modes(case: Parameters, most: int = 15) -> NDArray[Any]:
 
     Parameters
     ----------
-    case : the case, of a plate
+    case : the case; a disc that is given by its modes needs shapes at two radii or more
     most : number of modes that are drawn, by ascending frequency
 
     Returns
@@ -131,7 +131,7 @@ def plot_modes(case: Parameters, most: int = 15) -> NDArray[Any]:
     Raises
     ------
     ParameterError
-        If an argument breaks a rule, or the disc is given by its modes.
+        If an argument breaks a rule, or the disc has no shapes.
 
     Examples
     --------

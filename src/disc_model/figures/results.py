@@ -132,7 +132,7 @@ def campbell(study: Any, highest: Any, multiples: Any, units: Any) -> Any:
 def modes(case: Any, most: Any) -> Any:
     """Draw the shapes of modes, as `disc_model.plot_modes` describes."""
     require_case(case)
-    radial_range(case)  # raises an error for a table
+    radial_range(case)  # raises an error without shapes
     count = min(Wishes(most=most).most, len(mode_arrays(case).omega))
     require((count > 0, "n_diameters", case.n_diameters, "must be >= 0 for modes"))
     columns = min(count, 5)

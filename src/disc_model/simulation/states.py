@@ -227,7 +227,7 @@ def deflection(case: Parameters, states: Any, r: Radii, theta: Angles) -> Any:
     ----------
     case : the case
     states : one state, or several, such as `snapshots` returns
-    r : m, radii from a to b, shape (n_r,)
+    r : m, radii from a to b, or within those at which a table gives shapes, shape (n_r,)
     theta : rad, angles fixed to the disc, shape (n_theta,); the slider starts at 0
 
     Returns
@@ -238,7 +238,7 @@ def deflection(case: Parameters, states: Any, r: Radii, theta: Angles) -> Any:
     Raises
     ------
     ParameterError
-        If a radius is off the disc, an angle is not finite, a state has other modes, or the disc is given by its modes.
+        If a radius is off the disc, an angle is not finite, a state has other modes, or the disc has no shapes.
 
     Examples
     --------
