@@ -97,7 +97,7 @@ def test_what_is_no_such_table_is_refused_with_the_heads(
             f"{HEADS},tangential_per_sqrt_kg\n0,929,0.4,0.1",
             "tangential=.0.1.: must be 0 for a mode without",
         ),
-        (HEADS, "must not be empty"),
+        (HEADS, "1 to 1000 modes"),
     ],
 )
 def test_numbers_keep_the_rules_of_a_disc(text: str, words: str, tmp_path: Path) -> None:
