@@ -16,7 +16,8 @@ import numpy as np
 import pandas as pd
 from scipy.sparse.linalg import eigsh
 
-from disc_model.disc.section import Material, _matrices, _points, mesh_of
+from disc_model.disc.section import _matrices, _under_slider, mesh_of
+from disc_model.parameters import Parameters
 
 TABLE = Path(__file__).with_suffix(".csv")
 DRAWING = (
@@ -26,7 +27,7 @@ DRAWING = (
     (0.035, 0.067, -0.040, -0.032),
 )
 """Section of docs/brake_disc.md: r from, r to, z from, z to in m."""
-IRON = Material(110e9, 0.26, 7200.0)
+IRON = Parameters(N=0, Omega=0, E=110e9, nu=0.26, rho=7200)
 SLIDER = (0.1, 0.012)
 CLAMPED = 0.035
 """Radius at which the hat is held, m."""
@@ -35,7 +36,7 @@ SHARES = (0.01, 0.05, 0.2)
 """Of the volume."""
 SIZES = (0.004, 0.002, 0.001)
 """Of elements, m."""
-HIGHEST = 2 * math.pi * 2000
+HIGHEST = math.tau * 2000
 """rad/s, above the mode at 1.76 kHz and below the next one of a nodal diameter."""
 
 
@@ -51,7 +52,7 @@ def stress_per_speed(size: float) -> tuple[float, np.ndarray]:
     mesh = mesh_of(DRAWING, size)
     element = skfem.ElementComposite(*[skfem.ElementQuad2()] * 3)
     basis = skfem.Basis(mesh, element, intorder=6)
-    points = _points(basis, SLIDER)
+    along_path = _under_slider(basis, SLIDER)[0][1]
     held = basis.get_dofs(lambda x: x[0] < CLAMPED + 1e-9).all()
     stiffness, mass = _matrices(basis, DIAMETERS, IRON)
     free = basis.complement_dofs(held)
@@ -64,7 +65,7 @@ def stress_per_speed(size: float) -> tuple[float, np.ndarray]:
     shape[free] = shapes[:, fed]
 
     # the speed of the surface is omega times its displacement
-    shape /= omega * abs(shape[points.unknowns[1]])
+    shape /= omega * abs(shape[along_path])
     stress = _von_mises(basis, shape)
     r = basis.global_coordinates().value[0]
     weights = (basis.dx * r).ravel()
@@ -91,7 +92,7 @@ def _von_mises(basis: Any, shape: np.ndarray) -> np.ndarray:
     at_antinodes = np.sum(deviator**2, axis=0) + in_section**2 / 2
     at_nodes = (in_plane**2 + across**2) / 2
     squares = 1.5 * np.maximum(at_antinodes, at_nodes)
-    return np.asarray(IRON.E / (1 + IRON.nu) * np.sqrt(squares))
+    return IRON.E / (1 + IRON.nu) * np.sqrt(squares)
 
 
 def main() -> None:
@@ -100,8 +101,9 @@ def main() -> None:
         stress = ", ".join(f"{1e-6 * each:.0f}" for each in by_share)
         print(f"elements of {1e3 * size:g} mm, {frequency:.0f} Hz: {stress} MPa s/m")
     # of the finest elements, which come last
-    columns = {"frequency": frequency, "share": SHARES, "stress_per_speed": by_share}
-    pd.DataFrame(columns).to_csv(TABLE, index=False, float_format="%.6g")
+    pd.DataFrame({"frequency": frequency, "share": SHARES, "stress_per_speed": by_share}).to_csv(
+        TABLE, index=False, float_format="%.6g"
+    )
 
 
 if __name__ == "__main__":

@@ -9,7 +9,6 @@ from typing import Any
 import pytest
 
 from disc_model import Disc, Parameters
-from disc_model.data.columns import scalars_dataset
 from disc_model.parameters import PLATE
 from tests.processes import python
 
@@ -80,9 +79,6 @@ def test_numbers_are_those_that_may_change() -> None:
 
 def test_a_disc_of_ones_own_stores_nothing_of_the_plate() -> None:
     assert not {*PLATE} & {*json.loads(OF_MODES.canonical_json)}
-    values = scalars_dataset(OF_MODES, {}, "ok", "")
-    assert values["n_diameters"] == 3
-    assert values["E"].isnull()
 
 
 def test_import_is_light() -> None:

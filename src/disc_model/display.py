@@ -25,24 +25,19 @@ class Summarised:
 
 
 def number_text(value: float, unit: str = "", digits: int = 6) -> str:
-    """A number with its unit; empty if there is none."""
+    """A number with its unit, and with a power of ten from `WRITTEN_OUT` on; empty if there is none."""
     if math.isnan(value):
         return ""
-    return f"{rounded_text(value, digits)} {unit}".strip()
-
-
-def rounded_text(value: float, digits: int) -> str:
-    """A number rounded to significant digits, with a power of ten from `WRITTEN_OUT` on."""
     text = f"{value:.{digits}g}"
     if "e+" in text and abs(value) < WRITTEN_OUT:
-        return f"{float(text):.0f}"
-    return text
+        text = f"{float(text):.0f}"
+    return f"{text} {unit}".strip()
 
 
-def frequencies_text(frequencies: Sequence[float]) -> str:
-    """The range of the frequencies of a disc, given in rad/s, in Hz."""
+def modes_text(frequencies: Sequence[float]) -> str:
+    """The number of the modes of a disc, and the range of their frequencies, given in rad/s, in Hz."""
     ends = {f"{omega / math.tau:.4g}": None for omega in (min(frequencies), max(frequencies))}
-    return f"{' to '.join(ends)} Hz"
+    return f"{counted(len(frequencies), 'mode')} of {' to '.join(ends)} Hz"
 
 
 def counted(number: int, noun: str) -> str:
@@ -72,42 +67,35 @@ def drawings() -> ModuleType:
 
 
 class Bar:
-    """A bar that counts what is done, of a `total` if that is known; one of rich, if it is shown."""
+    """A bar that counts what is done; one of rich, if it is shown."""
 
-    def __init__(self, total: int | None, shown: Any = None, title: str = "") -> None:
-        self.total = total
-        self.shown = shown
-        if shown is not None:
-            shown.add_task(title, total=total)
+    def __init__(self, shown: Any = None) -> None:
+        self._shown = shown
 
     def advance(self) -> None:
         """Count one more that is done."""
         self._update(advance=1)
-
-    def expect(self, more: int) -> None:
-        """Count more that are to be done."""
-        if self.total is not None:
-            self.total += more
-            self._update(total=self.total)
 
     def describe(self, text: str) -> None:
         """Say beside the bar what is done now."""
         self._update(description=text)
 
     def _update(self, **changes: Any) -> None:
-        if self.shown is not None:
-            self.shown.update(0, **changes)
+        if self._shown is not None:
+            self._shown.update(0, **changes)
 
 
 @contextmanager
 def progress_bar(title: str, total: int | None, shown: bool) -> Iterator[Bar]:
-    """A bar on standard error while it is needed; it only counts if it is not shown."""
+    """A bar on standard error while it is needed, of a `total` if that is known; nothing unless it is
+    shown."""
     if not shown:
-        yield Bar(total)
+        yield Bar()
         return
     from rich.console import Console
     from rich.progress import MofNCompleteColumn, Progress, TimeElapsedColumn
 
     columns = [*Progress.get_default_columns(), MofNCompleteColumn(), TimeElapsedColumn()]
     with Progress(*columns, console=Console(stderr=True)) as progress:
-        yield Bar(total, progress, title)
+        progress.add_task(title, total=total)
+        yield Bar(progress)

@@ -14,10 +14,10 @@ from pydantic import ConfigDict, Field
 
 from disc_model.arrays import Array
 from disc_model.disc.modes import plate_modes
-from disc_model.disc.plate import damping_ratios
+from disc_model.disc.plate import modal_damping
 from disc_model.display import brought
 from disc_model.errors import DiscModelError, Fault, ParameterError, raise_faults, suggestion
-from disc_model.parameters import Parameters, foreign_case
+from disc_model.parameters import Parameters, require_case
 from disc_model.stability.cycle import FloquetResult
 from disc_model.stability.floquet import floquet
 from disc_model.stability.sliding import steady_sliding
@@ -99,7 +99,8 @@ def fit(
     0.209 ± 0.006
     """
     request = _Request(vary=vary, data=_records(data), bounds={} if bounds is None else bounds)
-    raise_faults(foreign_case(case) or [*_faults(case, request)])
+    require_case(case)
+    raise_faults([*_faults(case, request)])
     lmfit = brought("lmfit", "fit")
     raise_faults([*_faults_of_start(case, request.data)])
     params = lmfit.Parameters()
@@ -232,5 +233,5 @@ def _computed(
     kind, diameters, circles = re.findall(OF_MODES, quantity)[0]
     modes = plate_modes(case).set_index(["diameters", "circles"])
     modes["frequency"] = modes["omega"] / math.tau
-    modes["damping_ratio"] = damping_ratios(case)
+    modes["damping_ratio"] = modal_damping(case) / (2 * modes["omega"])
     return modes[kind].get((int(diameters), int(circles)), math.nan)

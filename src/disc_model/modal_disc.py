@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Callable, Iterable
 from functools import partial
 from itertools import combinations, pairwise
@@ -10,9 +9,9 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Self
 
 from pydantic import Field, field_validator, model_validator
 
-from disc_model.display import counted, frequencies_text
-from disc_model.errors import Check, raise_faults, require
-from disc_model.units import Count, Finite, Natural, Positive, Strict, Unit, between, limits_faults
+from disc_model.display import modes_text
+from disc_model.errors import Check, require
+from disc_model.units import Count, Finite, Natural, Positive, Strict, Unit, between
 
 if TYPE_CHECKING:
     import os
@@ -115,8 +114,10 @@ class Disc(Strict):
             # no half of a pair has its node under the slider
             (still, "tangential", [*self.tangential], at_axis),
         )
+        low, high = AMPLITUDES
         largest = max(map(abs, self.amplitude))
-        raise_faults(limits_faults("largest amplitude", largest, AMPLITUDES))
+        rule = f"must be within {low:g} and {high:g}"
+        require((low <= largest <= high, "largest amplitude", largest, rule))
         self._refuse_repeated_modes()
         return self
 
@@ -145,21 +146,13 @@ class Disc(Strict):
             return column
         if info.field_name == "damping_ratio":
             return (0.0,) * len(omega)
-        circles = [0] * len(omega)
-        below: Counter[int] = Counter()  # modes met so far, by their diameters
-        for i in sorted(range(len(omega)), key=omega.__getitem__):
-            circles[i] = below[diameters[i]]
-            below[diameters[i]] += 1
-        return tuple(circles)
+        modes = [*zip(diameters, omega, strict=True)]
+        return tuple(sum(l == own and w < at for l, w in modes) for own, at in modes)
 
     def __repr__(self) -> str:
-        return f"Disc({counted(len(self.omega), 'mode')}, {frequencies_text(self.omega)})"
+        return f"Disc({modes_text(self.omega)})"
 
     __str__ = __repr__
-
-    def first(self, count: int) -> Disc:
-        """The disc with only the first `count` modes of its table."""
-        return self.replace(**{name: getattr(self, name)[:count] for name in self._columns})
 
     # ---- Files
 

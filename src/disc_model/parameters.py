@@ -17,7 +17,7 @@ from pydantic import (
     model_validator,
 )
 
-from disc_model.errors import Fault, ImplausibleValue, as_text, require
+from disc_model.errors import ImplausibleValue, as_text, require
 from disc_model.modal_disc import Disc
 from disc_model.provenance import content_key
 from disc_model.units import UNITS, Count, Finite, Real, Strict, in_si, must
@@ -240,21 +240,17 @@ class Parameters(Strict):
         """Refuse parameters that are replaced, and laws of contact that need to know more of a disc
         given by its modes."""
         disc = self.disc
-        by = "damping_ratio is given"
-        if disc is not None:
-            by = "a disc is given: it is of the plate"
-        replaced = []
-        for name in self._replaced:
-            value = getattr(self, name)
-            kept = value == type(self).model_fields[name].default
-            replaced.append((kept, name, value, f"must be left out where {by}"))
-        surface = disc is None or disc.tangential or self.friction_offset != SURFACE
+        by = "damping_ratio is given" if disc is None else "a disc is given: it is of the plate"
+        rule = f"must be left out where {by}"
+        fields = type(self).model_fields
+        replaced = {name: getattr(self, name) for name in self._replaced}
         need = "must be a number for a disc whose table has no column tangential_per_sqrt_kg"
-        known = disc is None or not self.contact_arc or self.contact_compliance != RESIDUAL
         point = "must be a number beside contact_arc for a disc given by its modes: "
         point += "its static_compliance is that at a point"
+        surface = disc is None or disc.tangential or self.friction_offset != SURFACE
+        known = disc is None or not self.contact_arc or self.contact_compliance != RESIDUAL
         require(
-            *replaced,
+            *((value == fields[x].default, x, value, rule) for x, value in replaced.items()),
             (surface, "friction_offset", SURFACE, need),
             (known, "contact_compliance", RESIDUAL, point),
         )
@@ -328,8 +324,6 @@ DEFAULTS = {
 }
 
 
-def foreign_case(case: object) -> list[Fault]:
-    """Faults of an argument `case`, which must be `Parameters`."""
-    if isinstance(case, Parameters):
-        return []
-    return [Fault.of(("case",), case, "must be Parameters")]
+def require_case(case: object) -> None:
+    """Raise `ParameterError` for an argument `case` that is no `Parameters`."""
+    require((isinstance(case, Parameters), "case", case, "must be Parameters"))

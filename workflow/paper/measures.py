@@ -82,7 +82,9 @@ class CaseView:
 
     def __getitem__(self, name: str) -> float:
         """Return a scalar: a parameter, or one of `disc_model.data.variables.SCALARS`."""
-        return float(self.node.variables[name].values)  # node[name] would make a dataset
+        if name in Parameters.model_fields:
+            return getattr(self.parameters, name)
+        return float(self.node.variables[name])  # node[name] would make a dataset
 
     # ---- What the case is
 

@@ -3,8 +3,8 @@ exceeds it (docs/model.md, The range at which contact is lost)."""
 
 import math
 
-from disc_model.errors import raise_faults, violations
-from disc_model.parameters import Parameters, foreign_case
+from disc_model.errors import require
+from disc_model.parameters import Parameters, require_case
 
 
 def pinned_range(case: Parameters, frequency: float) -> float:
@@ -42,7 +42,8 @@ def pinned_range(case: Parameters, frequency: float) -> float:
     """
     positive = isinstance(frequency, int | float) and 0 < frequency < math.inf
     rule = "must be a number > 0, in Hz"
-    raise_faults([*foreign_case(case), *violations((positive, "frequency", frequency, rule))])
+    require_case(case)
+    require((positive, "frequency", frequency, rule))
     omega = 2 * math.pi * frequency
     stiffness = abs(complex(case.k - case.m * omega**2, case.c * omega))
     if stiffness == 0:

@@ -1,9 +1,8 @@
-"""Datasets of the numbers of a case: samples and events along a dimension, scalars, parameters, and what
-functions return."""
+"""Datasets of the numbers of a case: samples and events along a dimension, scalars, and what functions
+return."""
 
 from __future__ import annotations
 
-import contextlib
 import math
 from collections.abc import Mapping
 from dataclasses import fields, is_dataclass
@@ -14,20 +13,17 @@ import xarray as xr
 from xarray import Dataset
 
 from disc_model.data.dataset import CONVENTIONS
-from disc_model.data.described import known_of
 from disc_model.data.variables import (
-    CHOICES,
     SCALARS,
     SERIES,
     STATUSES,
     Entries,
-    Variable,
     attributes,
+    described,
     message_of,
 )
-from disc_model.disc.flexibility import contact_compliance
-from disc_model.errors import DiscModelError, Fault, ParameterError
-from disc_model.parameters import PLATE, RESIDUAL, SURFACE, Parameters
+from disc_model.errors import Fault, ParameterError
+from disc_model.parameters import Parameters
 
 
 def series_dataset(columns: Entries, along: str) -> Dataset:
@@ -44,16 +40,12 @@ def series_dataset(columns: Entries, along: str) -> Dataset:
 
 def scalars_dataset(p: Parameters, values: Entries, status: str, message: str) -> Dataset:
     """The root of a case: its scalars, `SCALARS`, of which most values are missing if it failed,
-    and the parameters."""
+    and the parameters as an attribute."""
     known = {"status": STATUSES.index(status), **values}
-    data: Entries = {
+    data = {
         name: ((), variable.dtype(known.get(name, variable.unknown)), variable.attributes)
         for name, variable in SCALARS.items()
     }
-    for name, value in _parameter_values(p).items():
-        if name in CHOICES:
-            value = np.int8(CHOICES[name].index(value))
-        data[name] = ((), value, attributes(name))
     attrs = {
         "Conventions": CONVENTIONS,
         "parameters": p.canonical_json,
@@ -62,32 +54,6 @@ def scalars_dataset(p: Parameters, values: Entries, status: str, message: str) -
         "message": message,
     }
     return Dataset(data, attrs=attrs)
-
-
-def _parameter_values(p: Parameters) -> Entries:
-    """The parameters by name: numbers in place of words where these stand for one, and nan for what
-    has no value, or does not count beside another one."""
-    values: Entries = dict(p)
-    if p.contact_compliance == RESIDUAL:
-        # nan if no modes are left out for it, which has made the case fail
-        values["contact_compliance"] = math.nan
-        with contextlib.suppress(DiscModelError):
-            values["contact_compliance"] = contact_compliance(p)
-    if p.friction_offset == SURFACE:
-        values["friction_offset"] = p.h / 2
-    if p.disc is None:
-        values["disc"] = ""
-        if p.damping_ratio is not None:
-            values["D_star"] = math.nan
-    else:
-        values["disc"] = p.disc.model_dump_json()  # variables hold no mapping
-        values |= {name: math.nan for name in PLATE if isinstance(values[name], float)}
-        values["n_diameters"] = max(p.disc.diameters)
-        values["n_circles"] = max(p.disc.circles)
-        values["normalization"] = "orthonormal"  # as amplitudes per root of mass are
-        if p.friction_offset == SURFACE:  # it follows from the table
-            values["friction_offset"] = math.nan
-    return {name: math.nan if value is None else value for name, value in values.items()}
 
 
 # ---- What functions return
@@ -127,15 +93,12 @@ def result_dataset(result: Any, function: str = "") -> Dataset:
 
 def _dataset_of_values(values: Mapping[Any, Any], kind: str) -> Dataset:
     """Numbers, words and one-dimensional arrays by name, with what the table says of them."""
-    known = known_of(kind)
     variables = {}
     for name, value in values.items():
         array = np.asarray(str(value) if isinstance(value, str) else value)
         if array.ndim <= 1 and array.dtype.kind in "biufcU":
-            said = known.get(name, Variable(units=""))
-            attrs = {} if said.flags else said.texts()
-            variables[name] = ((f"{name}_index",)[: array.ndim], array, attrs)
-    return Dataset(variables)
+            variables[name] = ((f"{name}_index",)[: array.ndim], array)
+    return described(Dataset(variables), kind)
 
 
 def _values_of(result: Any) -> Entries:

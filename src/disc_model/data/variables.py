@@ -1,21 +1,27 @@
 """The table of variables: meaning and unit of each, and the meanings of flags."""
 
+from __future__ import annotations
+
 import enum
 import json
 import math
 import re
 import tomllib
+from collections import ChainMap
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any, NamedTuple, get_args
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from disc_model.display import counted, frequencies_text
+from disc_model.display import modes_text
 from disc_model.errors import StatusBase
 from disc_model.parameters import Parameters
+
+if TYPE_CHECKING:
+    from xarray import Dataset
 
 _TABLES = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
 WORDS = {name: tuple(words) for name, words in _TABLES["words"].items()}
@@ -70,13 +76,8 @@ class CycleStatus(StatusBase):
     NON_FINITE = "non_finite", "The motion overflowed: check the parameters' magnitudes."
 
 
-GIVE_A_GUESS = "give the last state of a longer simulation as guess"
-"""How a message on a search without a cycle may end."""
-
-
 def with_advice(found: str, status: StatusBase) -> str:
-    """What was found, and then the advice of its status, which says in full what a message may end with."""
-    found = found.removesuffix(f": {GIVE_A_GUESS}")
+    """What was found, and then the advice of its status."""
     if found in ("", status.advice):
         return status.advice
     return f"{found}. {status.advice}"
@@ -180,14 +181,10 @@ are "added" to its columns."""
 COMMON = _variables(_TABLES["common"])
 """Variables of several quantities and of sweeps."""
 GROUPS = ("events", "final_state", "initial_state")  # groups in the file of a run, beside windows
-BESIDE_WINDOWS = frozenset({*GROUPS, *SCALARS, *Parameters.model_fields})
+BESIDE_WINDOWS = frozenset({*GROUPS, *SCALARS})
 """Groups and variables beside the windows in a file; no window may have such a name."""
-TAKEN = "must not be the name of a parameter or variable of results"
+TAKEN = "must not be the name of a variable of results"
 """The rule that says so."""
-CHOICES: dict[str, tuple[str, ...]] = {
-    name: get_args(Parameters.model_fields[name].annotation)
-    for name in ("normalization", "contact", "contact_force", "friction_law", "stretching")
-}
 EXCLUDED = "excluded"
 """Status of points that a rule of the study leaves out."""
 TRUTH = {"comment": "1 for True, 0 for False, nan where there is neither"}
@@ -209,38 +206,69 @@ _CF_UNITS = {
 """Units of parameters as files have them."""
 
 
+def _of_parameter(name: str) -> Variable:
+    """A parameter, whose description is a comment if the table has a shorter name."""
+    description = Parameters.model_fields[name].description or name
+    text = _TABLES["parameters"].get(name, description)
+    unit = Parameters.unit(name) or "1"
+    comment = description if text != description else ""
+    return Variable(_CF_UNITS.get(unit, unit), text, comment=comment)
+
+
+def _of_bin(bound: str, variable: Variable) -> Variable:
+    """The least or greatest value of a variable within a bin."""
+    comment = f"within the bin; {variable.comment}".removesuffix("; ")
+    return variable._replace(long_name=f"{bound} {variable.long_name}", comment=comment)
+
+
+_OF_CASES = {
+    **{f"{name}_{end}": _of_bin(_BOUNDS[end], x) for name, x in SERIES.items() for end in _BOUNDS},
+    **{name: _of_parameter(name) for name in Parameters.model_fields},
+    **SERIES, **SCALARS, **PERTURBATIONS,
+}  # fmt: skip
+
+
 def attributes(name: str) -> Entries:
     """CF attributes of a variable of a run or of a parameter: units, long name, comment and, for a flag, the
     meanings of its values."""
-    stem, _, bound = name.rpartition("_")
-    known = SERIES | SCALARS | PERTURBATIONS
-    if bound in _BOUNDS and stem in SERIES:
-        variable = SERIES[stem]
-        remark = f"within the bin; {variable.comment}".removesuffix("; ")
-        text = f"{_BOUNDS[bound]} {variable.long_name}"
-        return variable._replace(long_name=text, comment=remark).attributes
-    if name in known:
-        return known[name].attributes
-    description = Parameters.model_fields[name].description or name
-    text = _TABLES["parameters"].get(name, description)
-    comment = ""
-    if text != description:
-        comment = description
-    choices = CHOICES.get(name, ())
-    unit = Parameters.unit(name) or "1"
-    return Variable(_CF_UNITS.get(unit, unit), text, choices, comment=comment).attributes
+    return _OF_CASES[name].attributes
+
+
+def known_of(kind: str) -> Mapping[str, Variable]:
+    """The variables of a quantity, of a class of results, or of a function of plain numbers."""
+    own = OF_QUANTITIES.get(kind, {}).values()
+    return ChainMap(OF_RESULTS.get(kind, {}), *own, COMMON)
+
+
+def described(
+    data: Dataset, kind: str, options: Mapping[str, Any] = MappingProxyType({})
+) -> Dataset:
+    """A dataset of a quantity, or of a class of results, whose variables say what they are.
+
+    data : what the table does not know of it stays as it is
+    options : of the quantity, which may name the parameter of which values are
+    """
+    known = known_of(kind)
+    said = data.copy()
+    for name in known.keys() & said.variables.keys():
+        variable = said.variables[name]
+        texts = known[str(name)].texts(options)
+        if variable.dtype.kind in "UO":  # words themselves have no unit
+            texts.pop("units", None)
+        kept = {key: x for key, x in variable.attrs.items() if key not in TEXTS}
+        variable.attrs = {**texts, **kept}
+    return said
 
 
 def flag_names(variable: Any) -> np.ndarray:
     """Values of a flag variable (a DataArray) as words, array of str of the same shape; words as they
     are, and "" for nan."""
-    values = variable.values
     if variable.dtype.kind in "UO":
         # as of words that xarray's where has masked
-        return np.where(variable.isnull(), "", values).astype(str)
+        return np.where(variable.isnull(), "", variable.values).astype(str)
     # the last one is that of a missing value
     known = np.array([*variable.attrs["flag_meanings"].split(), ""])
-    return np.asarray(known[np.where(np.isnan(values), -1, values).astype(int)])
+    return np.asarray(known[variable.fillna(-1).values.astype(int)])
 
 
 def stated_in(study: Any, what: str) -> Entries:
@@ -293,11 +321,9 @@ def message_of(result: Any) -> str:
     this package whose own status is "ok" only says its numbers again: that is ""."""
     status = getattr(result, "status", None)
     message = getattr(result, "message", "")
-    if not isinstance(status, StatusBase):
-        return message
-    if status == "ok":
+    if status == "ok" and isinstance(status, StatusBase):
         return ""
-    if getattr(status, "complete", False):
+    if not isinstance(status, StatusBase) or getattr(status, "complete", False):
         return message
     return with_advice(message, status)
 
@@ -309,17 +335,15 @@ def values_text(
     factors from SI; of a disc that is given by its modes their number and frequencies."""
     texts = []
     for name, field in Parameters.model_fields.items():
-        told = name in values and name not in ("normalization", "contact")
-        if not told or values[name] in (field.default, str(field.default)):
+        value = values.get(name, field.default)
+        if name in ("normalization", "contact") or value in (field.default, str(field.default)):
             continue
         if name == "disc":
-            omega = dict(values[name])["omega"]
-            modes = counted(len(omega), "mode")
-            texts.append(f"a disc given by {modes} of {frequencies_text(omega)}")
+            texts.append(f"a disc given by {modes_text(dict(value)['omega'])}")
             continue
         shown = SHOWN.get(name) or Shown(name, name, unit_of_parameter(name))
         unit, factor = units.get(name, (shown.unit, shown.factor))
-        texts.append(f"{shown.symbol or name} = {_number_text(values[name], unit, factor)}")
+        texts.append(f"{shown.symbol or name} = {_number_text(value, unit, factor)}")
     return ", ".join(texts)
 
 

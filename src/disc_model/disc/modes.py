@@ -8,8 +8,7 @@ import numpy as np
 
 from disc_model.arrays import Array
 from disc_model.disc.plate import coupled_frequencies, mode_arrays
-from disc_model.errors import raise_faults
-from disc_model.parameters import Parameters, foreign_case
+from disc_model.parameters import Parameters, require_case
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -57,7 +56,7 @@ def plate_modes(case: Parameters) -> pd.DataFrame:
     """
     import pandas as pd
 
-    raise_faults(foreign_case(case))
+    require_case(case)
     return pd.DataFrame(vars(mode_arrays(case)))
 
 
@@ -89,6 +88,6 @@ def coupled_natural_frequencies(case: Parameters) -> Array:
     >>> dm.coupled_natural_frequencies(dm.Parameters(N=385, Omega=15.1))[:3].round(2)
     array([ 850.86, 1492.55, 1516.76])
     """
-    raise_faults(foreign_case(case))
+    require_case(case)
     modes = mode_arrays(case)
     return np.sort(np.concatenate([coupled_frequencies(case), modes.omega[modes.diameters > 0]]))

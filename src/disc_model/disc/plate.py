@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import math
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import lru_cache
 from operator import attrgetter
 from typing import Any
@@ -53,17 +53,19 @@ class Modes:
 
 def mode_arrays(p: Parameters) -> Modes:
     """The modes of `plate_modes` as read-only arrays, the same at every call."""
-    at_point = modes_at_point(p)
-    if p.contact_arc == 0:
-        return at_point
-    return _under_pad(at_point, p.contact_arc)
+    return _modes_under(p, p.contact_arc)
 
 
 def modes_at_point(p: Parameters) -> Modes:
     """As `mode_arrays`, with the amplitudes of a single point at r_0, whatever the slider's arc."""
+    return _modes_under(p, 0.0)
+
+
+def _modes_under(p: Parameters, arc: float) -> Modes:
+    """The modes of a case with their mean amplitudes over an arc (rad)."""
     if p.disc is not None:
-        return modes_of_table(p.disc)
-    return _modes(_PLATE(p), p.normalization == "orthonormal")
+        return _modes_of_table(p.disc, arc)
+    return _modes_of_plate(_PLATE(p), p.normalization == "orthonormal", arc)
 
 
 def pad_factors(diameters: Indices | Array, arc: float) -> Array:
@@ -98,12 +100,8 @@ def mode_shapes(p: Parameters, r: Array) -> Array:
     if p.n_diameters < 0:  # a rigid disc
         return np.zeros((0, len(r)))
     shapes = _shapes(p.a / p.b, p.nu, p.n_diameters, p.n_circles)
-    radial = np.column_stack(
-        [shapes.at(float(x), p.normalization == "orthonormal") for x in r / p.b]
-    )
-    around = np.where(shapes.l > 0, np.sqrt(2), 1.0)  # norm of cos(l theta)
-    root_of_mass = np.sqrt(p.rho * p.h * p.b**2)
-    return around[:, None] * radial / root_of_mass
+    radial = shapes.at(r / p.b, p.normalization == "orthonormal")
+    return shapes.around[:, None] * radial / np.sqrt(p.rho * p.h * p.b**2)
 
 
 def mode_slopes(p: Parameters, r: Array) -> tuple[Array, Array]:
@@ -111,8 +109,8 @@ def mode_slopes(p: Parameters, r: Array) -> tuple[Array, Array]:
     kg^-1/2 and kg^-1/2 m^-1, both (n_modes, k)."""
     shapes = _shapes(p.a / p.b, p.nu, p.n_diameters, p.n_circles)
     value, slope = shapes.with_slopes(r / p.b, p.normalization == "orthonormal")
-    scale = np.where(shapes.l > 0, np.sqrt(2), 1.0) / np.sqrt(p.rho * p.h * p.b**2)
-    return scale[:, None] * value, scale[:, None] * slope / p.b
+    scale = shapes.around[:, None] / np.sqrt(p.rho * p.h * p.b**2)
+    return scale * value, scale * slope / p.b
 
 
 def radial_range(p: Parameters) -> tuple[float, float]:
@@ -136,21 +134,14 @@ def coupled_shapes(p: Parameters, compliance: float = 0.0) -> tuple[Array, Array
     times its frequency. On a compliant contact the last row is the slider's."""
     from scipy import linalg  # takes 0.3 s, and most jobs do without
 
-    omega = mode_arrays(p).omega
-    inverse_squares = shapes = np.zeros(0)
-    resolved = False
     # a matrix that is singular by rounding, or not finite
     with np.errstate(all="ignore"), suppress(linalg.LinAlgError, ValueError):
         inverse_squares, shapes = linalg.eigh(*_coupling(p, compliance))
-        resolved = not omega.size or bool(inverse_squares[0] * WIDEST > inverse_squares[-1])
-    if not resolved:
-        ends = f"{omega.min(initial=np.inf):g} to {omega.max(initial=0):g} rad/s"
-        case = (
-            f"m={as_text(p.m)}, k={as_text(p.k)}, a contact compliance of {compliance:g} m/N and "
-        )
-        rule = f"disc modes of {ends}: squared frequencies must be within a factor of {WIDEST:g}"
-        raise ModeError(f"disc and slider at rest: {case}{rule}")
-    return 1 / np.sqrt(inverse_squares), shapes
+        if not len(shapes) or inverse_squares[0] * WIDEST > inverse_squares[-1]:
+            return 1 / np.sqrt(inverse_squares), shapes
+    case = f"m={as_text(p.m)}, k={as_text(p.k)}, a contact compliance of {compliance:g} m/N and the disc's modes"
+    rule = f"squared frequencies must be within a factor of {WIDEST:g}"
+    raise ModeError(f"disc and slider at rest: {case}: {rule}")
 
 
 def _coupling(p: Parameters, compliance: float) -> tuple[Array, Array]:
@@ -180,35 +171,21 @@ def modal_damping(p: Parameters) -> Array:
     return p.D_star / p.D * omega**2
 
 
-def damping_ratios(p: Parameters) -> Array:
-    """Damping ratios of the modes of a case, in the order of `plate_modes`; of a disc that is given
-    by its modes, exactly those given."""
-    if p.disc is not None:
-        return np.array(p.disc.damping_ratio)
-    with np.errstate(invalid="ignore"):
-        return modal_damping(p) / (2 * mode_arrays(p).omega)
-
-
 @lru_cache(maxsize=64)
-def modes_of_table(disc: Disc) -> Modes:
-    """The modes of a disc that is given by a table."""
+def _modes_of_table(disc: Disc, arc: float) -> Modes:
+    """The modes of a disc that is given by a table, under an arc."""
     circles, diameters = (np.array(column, np.int64) for column in (disc.circles, disc.diameters))
-    return Modes(circles, diameters, np.array(disc.omega), np.array(disc.amplitude))
-
-
-@lru_cache(maxsize=256)
-def _under_pad(at_point: Modes, arc: float) -> Modes:
-    """Modes with the amplitudes under a pad, the same at every call for the same modes."""
-    return replace(at_point, psi=at_point.psi * pad_factors(at_point.diameters, arc))
+    psi = np.array(disc.amplitude) * pad_factors(diameters, arc)
+    return Modes(circles, diameters, np.array(disc.omega), psi)
 
 
 _PLATE = attrgetter("a", "b", "r_0", "h", "E", "nu", "rho", "n_diameters", "n_circles")
 
 
 @lru_cache(maxsize=1024)
-def _modes(plate: tuple[Any, ...], orthonormal: bool) -> Modes:
-    """Modes, cached by exactly the values on which they depend, so that another load or speed
-    reuses them."""
+def _modes_of_plate(plate: tuple[Any, ...], orthonormal: bool, arc: float) -> Modes:
+    """Modes under an arc, cached by exactly the values on which they depend, so that another load or
+    speed reuses them."""
     a, b, r_0, h, E, nu, rho, n_diameters, n_circles = plate
     if n_diameters < 0:  # a rigid disc
         return Modes(*np.zeros((2, 0), np.int64), *np.zeros((2, 0)))
@@ -219,19 +196,15 @@ def _modes(plate: tuple[Any, ...], orthonormal: bool) -> Modes:
         area = np.float64(b) ** 2
         area_mass = np.float64(rho) * h
         omega = shapes.lam**2 / area * np.sqrt(stiffness / area_mass)
-        around = np.where(shapes.l > 0, np.sqrt(2), 1.0)  # norm of cos(l theta)
-        amplitude = shapes.at(r_0 / b, orthonormal)
-        psi = around * amplitude / np.sqrt(rho * h * area)
+        amplitude = shapes.at(np.array([r_0 / b]), orthonormal)[:, 0]
+        psi = shapes.around * amplitude / np.sqrt(rho * h * area) * pad_factors(shapes.l, arc)
     vibrate = np.all((omega > 0) & np.isfinite(omega))
     move = np.all(np.isfinite(psi)) and np.any(psi)
     if not (vibrate and move):
-        named = {"b": b, "h": h, "E": E, "rho": rho}
-        values = ", ".join(f"{name}={as_text(x)}" for name, x in named.items())
-        raise ModeError(
-            f"plate modes: {values}: frequencies or amplitudes must be within the range of numbers"
-        )
-    circles = np.repeat(np.arange(n_circles + 1), n_diameters + 1)
-    return Modes(circles, shapes.l.copy(), omega, psi)
+        values = f"E={as_text(E)}, h={as_text(h)}, b={as_text(b)}, rho={as_text(rho)}"
+        rule = "frequencies or amplitudes must be within the range of numbers"
+        raise ModeError(f"plate modes: {values}: {rule}")
+    return Modes(shapes.circles, shapes.l, omega, psi)
 
 
 @dataclass(frozen=True)
@@ -250,17 +223,26 @@ class _Shapes:
     exponents: Array
     norm: Array
 
-    def at(self, x: float, orthonormal: bool) -> Array:
-        """R(x) of every mode in the requested normalisation, (n,)."""
-        radius = np.array([x])
-        [value] = _evaluate(self.l, self.lam, self.coefficients, self.exponents, radius).T
+    @property
+    def circles(self) -> Indices:
+        """Numbers of nodal circles."""
+        return np.arange(len(self.l)) // (self.l[-1] + 1)
+
+    @property
+    def around(self) -> Array:
+        """Norms of cos(l theta)."""
+        return np.where(self.l > 0, np.sqrt(2), 1.0)
+
+    def at(self, x: Array, orthonormal: bool) -> Array:
+        """R of every mode at radii x (k,) in the requested normalisation, (n, k)."""
+        value = _evaluate(self.l, self.lam, self.coefficients, self.exponents, x)
         if orthonormal:
-            return value / np.sqrt(self.norm)
+            return value / np.sqrt(self.norm)[:, None]
         with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
-            amplitude = value / self.coefficients[0] * np.exp(self.exponents[0])
-        if not np.all(np.isfinite(amplitude)):
-            first = self.l[~np.isfinite(amplitude)][0]
-            mode = f"the mode with {first} nodal diameters at a/b={self.inner:g}"
+            amplitude = value / self.coefficients[0, :, None] * np.exp(self.exponents[0, :, None])
+        overflown = self.l[~np.isfinite(amplitude).all(axis=1)]
+        if overflown.size:
+            mode = f"the mode with {overflown[0]} nodal diameters at a/b={self.inner:g}"
             rule = "overflows when its coefficient of J_l is 1; use fewer diameters or normalization='orthonormal'"
             raise ModeError(f"normalization='as_published': {mode} {rule}")
         return amplitude
@@ -304,15 +286,15 @@ def _shapes(inner: float, nu: float, n_diameters: int, n_circles: int) -> _Shape
     nodes = inner + half * (nodes + 1)
     weights = half * weights
     values = _evaluate(l, lam, coefficients, exponents, nodes)
-    circles = np.repeat(np.arange(n_circles + 1), n_diameters + 1)
-    for shape, diameters, expected in zip(values, l, circles, strict=True):
+    norm = 2 * np.pi * values**2 @ (weights * nodes)
+    shapes = _Shapes(inner, l, lam, coefficients, exponents, norm)
+    for shape, diameters, expected in zip(values, l, shapes.circles, strict=True):
         counted = _nodal_circles(shape)
         if counted != expected:
             root = f"root {expected} for {diameters} nodal diameters at a/b={inner:g}, nu={nu:g}"
             rule = f"has {counted} nodal circles; one was missed or doubled"
             raise ModeError(f"plate modes: {root} {rule}")
-    norm = 2 * np.pi * values**2 @ (weights * nodes)
-    return _Shapes(inner, l, lam, coefficients, exponents, norm)
+    return shapes
 
 
 def _nodal_circles(shape: Array) -> int:

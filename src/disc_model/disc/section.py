@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Mapping
 from itertools import pairwise
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -30,39 +30,6 @@ MOST_DIAMETERS = 60  # of the modes of a `Disc`
 UNMOVED = 1e-6  # share of the largest amplitude below which a mode moves in the disc's plane alone
 
 
-class Material(NamedTuple):
-    """An isotropic material: Pa, 1, kg/m^3."""
-
-    E: float
-    nu: float
-    rho: float
-
-
-class SectionMode(NamedTuple):
-    """A mode of the solid by fields of a `Disc`: rad/s, numbers of diameters and circles, kg^-1/2."""
-
-    omega: float
-    diameters: int
-    circles: int
-    amplitude: float
-    tangential: float
-    shapes: list[float]
-
-
-class Points(NamedTuple):
-    """What is read from the shapes of the section.
-
-    unknowns : numbers of unknowns of the finite elements: displacement of the slider's node normal to the disc
-        and along its path, then vertical displacements of the nodes at its height
-    radii : m, where these nodes are
-    side : 1 if the slider is on the lower face of the disc, -1 on the upper one
-    """
-
-    unknowns: Indices
-    radii: Array
-    side: int
-
-
 def disc_of_section(
     rectangles: Iterable[Iterable[float]],
     size: float,
@@ -73,50 +40,64 @@ def disc_of_section(
 ) -> Disc:
     """Find the modes of a solid of revolution that move under the slider, see
     `disc_model.Disc.from_section`."""
-    checked = Parameters(N=0, Omega=0, normalization="orthonormal", **material)
+    solid = Parameters(N=0, Omega=0, normalization="orthonormal", **material)
     is_frequency = is_number(highest_Hz) and 0 < highest_Hz < math.inf
     require((is_frequency, "highest_Hz", highest_Hz, "must be finite and > 0"))
     mesh = mesh_of(rectangles, size)
-
     skfem = brought("skfem", "fe")
     element = skfem.ElementComposite(*[skfem.ElementQuad2()] * 3)
     basis = skfem.Basis(mesh, element, intorder=6)
-    points = _points(basis, slider)
+    measured, radii, side = _measured(basis, slider)
     held = basis.get_dofs(lambda x: np.broadcast_to(clamped(x), x.shape[1:])).all()
     rule = "must hold nodes of the section: coordinates are in m"
     require((len(held) > 0, "clamped", len(held), rule))
 
-    iron = Material(checked.E, checked.nu, checked.rho)
-    modes = _modes(basis, iron, held, points, math.tau * highest_Hz)
-    least = UNMOVED * max((mode.amplitude for mode in modes), default=0.0)
-    moving = sorted(mode for mode in modes if mode.amplitude > least)
+    tables = []
+    for l in range(MOST_DIAMETERS + 1):
+        omega, moves = _harmonic(basis, l, solid, held, measured, math.tau * highest_Hz)
+        if l > 1 and len(omega) == 0:  # more nodal diameters only stiffen the disc
+            break
+        columns = {
+            "omega": omega,
+            "diameters": l,
+            "circles": range(len(omega)),
+            "amplitude": moves[:, 0],
+            # the half of a pair that moves as sin(l theta) has u_theta = -v cos(l theta); seen from
+            # below, displacement towards the slider and the sense of rotation are reversed
+            "tangential": side * moves[:, 1],
+            "shapes": moves[:, 2:].tolist(),
+        }
+        tables.append(pd.DataFrame(columns))
+    modes = pd.concat(tables).sort_values("omega")
+    moving = modes[modes["amplitude"] > UNMOVED * modes["amplitude"].max()]
     rule = "must be above a mode that moves under the slider"
-    require((moving, "highest_Hz", highest_Hz, rule))
-    damping_ratios = [float(material["damping_ratio"])] * len(moving)
-    columns: Any = pd.DataFrame(moving).to_dict("list")
-    return Disc(**columns, damping_ratio=damping_ratios, radii=points.radii.tolist())
+    require((len(moving), "highest_Hz", highest_Hz, rule))
+    damping_ratios = [solid.damping_ratio] * len(moving)
+    fields: Any = moving.to_dict("list")
+    return Disc(**fields, damping_ratio=damping_ratios, radii=radii.tolist())
 
 
 def mesh_of(rectangles: Iterable[Iterable[float]], size: float) -> Any:
     """Mesh a union of rectangles (r from, r to, z from, z to), m, with a line of nodes along every
     edge of each; `size`: m, largest edge of an element."""
-    boxes = np.array([*rectangles], float).reshape(-1, 2, 2)  # (rectangle, r and z, from and to)
-    low, high = np.moveaxis(boxes, 2, 0)
-    is_section = len(boxes) > 0 and (low < high).all() and (low[:, 0] > 0).all()
+    boxes = np.array([*rectangles], float).reshape(-1, 4)
+    inner, outer, low, high = boxes.T
+    is_section = boxes.size and np.all((inner > 0) & (inner < outer) & (low < high))
     rule = (
         "must be rectangles (r from, r to, z from, z to) with 0 < r from < r to and z from < z to"
     )
     is_size = is_number(size) and size > 0
     require((is_section, "section", rectangles, rule), (is_size, "size", size, "must be > 0"))
-    elements = np.prod(np.ptp(boxes, axis=(0, 2)) / size)
+    elements = np.ptp(boxes[:, :2]) * np.ptp(boxes[:, 2:]) / size**2
     rule = f"must give at most {MOST_ELEMENTS:,} elements: size and rectangles are in m"
     require((elements <= MOST_ELEMENTS, "size", size, rule))
 
-    lines = [_divided(np.unique(boxes[:, axis]), size) for axis in (0, 1)]
-    mesh = brought("skfem", "fe").MeshQuad.init_tensor(*lines)
-    middle = mesh.p[:, mesh.t].mean(axis=1).T[:, None]
-    is_inside = np.all((low < middle) & (middle < high), axis=2).any(axis=1)
-    mesh = mesh.restrict(np.flatnonzero(is_inside))
+    def is_inside(middle: Array) -> Any:
+        r, z = middle[..., None]
+        return np.any((inner < r) & (r < outer) & (low < z) & (z < high), axis=1)
+
+    lines = [_divided(ends, size) for ends in (boxes[:, :2], boxes[:, 2:])]
+    mesh = brought("skfem", "fe").MeshQuad.init_tensor(*lines).restrict(is_inside)
     links = coo_matrix((np.ones(mesh.facets.shape[1]), mesh.facets), shape=[mesh.p.shape[1]] * 2)
     is_whole = csgraph.connected_components(links, directed=False)[0] == 1
     rule = "must be one piece: the rectangles must share edges"
@@ -126,12 +107,15 @@ def mesh_of(rectangles: Iterable[Iterable[float]], size: float) -> Any:
 
 def _divided(ends: Array, size: float) -> Array:
     """Coordinates with all ends among them, and no gap larger than `size`."""
-    parts = [np.linspace(a, b, math.ceil((b - a) / size) + 1) for a, b in pairwise(ends)]
+    gaps = pairwise(np.unique(ends))
+    parts = [np.linspace(a, b, math.ceil((b - a) / size) + 1) for a, b in gaps]
     return np.unique(np.concatenate(parts))
 
 
-def _points(basis: Any, slider: Any) -> Points:
-    """What is read at the slider's node, and at its height."""
+def _measured(basis: Any, slider: Any) -> tuple[Indices, Array, int]:
+    """What is read from the shapes of the section: the numbers of the unknowns, namely displacement of the
+    slider's node normal to the disc and along its path, then vertical displacements of the nodes at
+    its height; radii of these nodes, m; and 1 if the slider is on the lower face, -1 on the upper one."""
     mesh = basis.mesh
     require((np.shape(slider) == (2,), "slider", slider, "must be two numbers, r and z"))
     apart = np.hypot(*(mesh.p.T - slider).T)
@@ -144,34 +128,15 @@ def _points(basis: Any, slider: Any) -> Points:
     r, z = basis.doflocs[:, vertical]
     level = np.abs(z - slider[1]) < SAME_PLACE
     radii, first = np.unique(r[level], return_index=True)
-    at_slider = basis.nodal_dofs[1:, node]
-    return Points(np.concatenate([at_slider, vertical[level][first]]), radii, side)
-
-
-def _modes(
-    basis: Any, material: Material, held: Any, points: Points, highest: float
-) -> list[SectionMode]:
-    """All modes up to the highest frequency (rad/s), by nodal diameters."""
-    modes = []
-    for l in range(MOST_DIAMETERS + 1):
-        omega, moves = _harmonic(basis, l, material, held, points.unknowns, highest)
-        if l > 1 and len(omega) == 0:  # more nodal diameters only stiffen the disc
-            break
-        for circles, (frequency, values) in enumerate(zip(omega, moves, strict=True)):
-            amplitude, circular, *shape = values.tolist()
-            # the half of a pair that moves as sin(l theta) has u_theta = -v cos(l theta); seen from
-            # below, displacement towards the slider and the sense of rotation are reversed
-            tangential = 0.0 + points.side * circular  # adding zero turns -0.0 into 0.0
-            modes.append(SectionMode(frequency, l, circles, amplitude, tangential, shape))
-    return modes
+    return np.concatenate([basis.nodal_dofs[1:, node], vertical[level][first]]), radii, side
 
 
 def _harmonic(
-    basis: Any, l: int, material: Material, held: Any, measured: Indices, highest: float
-) -> tuple[list[float], Array]:
+    basis: Any, l: int, solid: Parameters, held: Any, measured: Indices, highest: float
+) -> tuple[Array, Array]:
     """Find the modes with l nodal diameters up to the highest frequency (rad/s): their frequencies,
     and values of the measured unknowns (modes, unknowns), of which the first is not negative."""
-    stiffness, mass = _matrices(basis, l, material)
+    stiffness, mass = _matrices(basis, l, solid)
     if l == 0:  # rotation about the axis is uncoupled from the other displacements
         held = np.union1d(held, basis.split_indices()[2])
     free = basis.complement_dofs(held)
@@ -195,22 +160,18 @@ def _harmonic(
     whole = np.zeros((basis.N, len(order)))
     whole[free] = shapes[:, order]
     moves = whole[measured].T
-    return np.sqrt(squares[order]).tolist(), np.where(moves[:, :1] < 0, -moves, moves)
+    return np.sqrt(squares[order]), np.where(moves[:, :1] < 0, -moves, moves)
 
 
-def _matrices(basis: Any, l: int, material: Material) -> tuple[Any, Any]:
+def _matrices(basis: Any, l: int, solid: Parameters) -> tuple[Any, Any]:
     """Stiffness and mass matrices of the solid for one harmonic."""
     form = brought("skfem", "fe").BilinearForm
-    E, nu, rho = material
-    lame = E * nu / ((1 + nu) * (1 - 2 * nu))
-    shear = E / 2 / (1 + nu)
-    elasticity = np.diag([2 * shear] * 3 + [shear] * 3)
-    elasticity[:3, :3] += lame
+    lame = solid.E * solid.nu / ((1 + solid.nu) * (1 - 2 * solid.nu))
+    shear = solid.E / 2 / (1 + solid.nu)
     angle = math.pi * (1 + (l == 0))  # of cos^2(l theta)
 
-    def strain(r: Any, *shape: Any) -> Array:
+    def strains(r: Any, u: Any, w: Any, v: Any) -> Array:
         """Three normal strains, then the doubled shear strains, of u_r, u_z and u_theta."""
-        u, w, v = shape
         normal = (u.grad[0], w.grad[1], (u + l * v) / r)
         in_section = u.grad[1] + w.grad[0]
         in_plane = v.grad[0] - (l * u + v) / r
@@ -219,11 +180,14 @@ def _matrices(basis: Any, l: int, material: Material) -> tuple[Any, Any]:
 
     def energy(*shapes: Any) -> Any:
         r = shapes[-1].x[0]
-        both = strain(r, *shapes[:3]), strain(r, *shapes[3:6])
-        return r * np.einsum("i...,ij,j...->...", both[0], elasticity, both[1])
+        one, other = strains(r, *shapes[:3]), strains(r, *shapes[3:6])
+        product = one * other
+        of_volume = lame * one[:3].sum(axis=0) * other[:3].sum(axis=0)
+        of_shape = shear * (2 * product[:3].sum(axis=0) + product[3:].sum(axis=0))
+        return r * (of_volume + of_shape)
 
     def inertia(*shapes: Any) -> Any:
         r = shapes[-1].x[0]
-        return rho * r * sum(a * b for a, b in zip(shapes[:3], shapes[3:6], strict=True))
+        return solid.rho * r * sum(a * b for a, b in zip(shapes[:3], shapes[3:6], strict=True))
 
     return form(energy).assemble(basis) * angle, form(inertia).assemble(basis) * angle

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -34,11 +33,21 @@ KNOWN = (
 
 def disc_of_table(path: str | os.PathLike[str]) -> Disc:
     """Read a disc from a table of its modes, see `disc_model.Disc.from_csv`."""
+    import pandas as pd
+
+    faults: tuple[Fault, ...]
     try:
-        return _disc(_cells(path))
+        cells = pd.read_csv(
+            path, header=None, dtype=str, keep_default_na=False, comment="#",
+            skipinitialspace=True, encoding="utf-8-sig",
+        )  # fmt: skip
+        return Disc(**_columns(cells))
     except ParameterError as error:
-        name = (Path(path).name,)
-        raise ParameterError(*(fault.inside(name) for fault in error.faults)) from None
+        faults = error.faults
+    except (OSError, ValueError) as error:
+        rule = f"must be a table with commas that can be read ({str(error).strip()}); {KNOWN}"
+        faults = (Fault((), "", rule),)
+    raise ParameterError(*(fault.inside((Path(path).name,)) for fault in faults))
 
 
 def table_of_disc(disc: Disc) -> pd.DataFrame:
@@ -52,42 +61,19 @@ def table_of_disc(disc: Disc) -> pd.DataFrame:
     return pd.DataFrame(columns)
 
 
-def _cells(path: str | os.PathLike[str]) -> pd.DataFrame:
-    """The cells of a file as texts, heads in the first row."""
-    import pandas as pd
-
-    try:
-        return pd.read_csv(
-            path, header=None, dtype=str, keep_default_na=False, comment="#",
-            skipinitialspace=True, encoding="utf-8-sig",
-        )  # fmt: skip
-    except (OSError, ValueError) as error:
-        rule = f"must be a table with commas that can be read ({str(error).strip()}); {KNOWN}"
-        raise ParameterError(Fault((), "", rule)) from None
-
-
-def _disc(cells: pd.DataFrame) -> Disc:
-    """The disc of the cells of a table."""
-    heads = [str(head).strip() for head in cells.iloc[0]]
+def _columns(cells: pd.DataFrame) -> dict[str, Any]:
+    """The fields of a `Disc` in a table whose first row has the heads."""
+    heads = [head.strip() for head in cells.iloc[0]]
     unknown = [head for head in heads if head not in HEADS]
-    fields = [HEADS[head][0] for head in heads if head in HEADS]
+    require((not unknown, "columns", unknown, f"unknown: {KNOWN}"))
+    fields = [HEADS[head][0] for head in heads]
     is_whole = {*fields} >= NEEDED and len({*fields}) == len(fields)
-    require(
-        (not unknown, "columns", unknown, f"unknown: {KNOWN}"),
-        (unknown or is_whole, "columns", heads, f"must have each once: {KNOWN}"),
-    )
-    columns: dict[str, Any] = {}
+    require((is_whole, "columns", heads, f"must have each once: {KNOWN}"))
+    columns = {}
     for i, head in enumerate(heads):
         field, factor = HEADS[head]
-        columns[field] = [number * factor for number in _numbers(head, cells[i][1:])]
-    return Disc(**columns)
-
-
-def _numbers(head: str, column: Iterable[str]) -> Iterable[float]:
-    """Yield the numbers of a column."""
-    for mode, cell in enumerate(column, 1):
         try:
-            yield float(cell)
-        except ValueError:
-            rule = f"must be a number (mode {mode}): {KNOWN}"
-            raise ParameterError(Fault.of((head,), cell, rule)) from None
+            columns[field] = [float(cell) * factor for cell in cells[i][1:]]
+        except ValueError as error:
+            raise ParameterError(Fault((head,), "", f"{error}; {KNOWN}")) from None
+    return columns

@@ -31,7 +31,6 @@ ROUNDING = 1e-9  # of half a turn over the largest gap between nodes
 MOST_DIAMETERS = 60  # of the modes of a `Disc`
 NODES = (15, 2411)  # datasets
 READ = (*NODES, 55, 2414, 18, 2420, 164)  # besides of results, coordinate systems and units
-NORMAL_MODE = "normal modes of displacements at nodes"
 
 Data = Mapping[str, Any]
 """A dataset, as pyuff has it."""
@@ -58,7 +57,7 @@ class Circle(NamedTuple):
     """The nodes on the slider's circle: numbers, angles (rad), directions of the axis (3,) and of the
     path (nodes, 3), and the matrix that fits cosines, plus i times sines, of 0, 1, 2, ... waves."""
 
-    labels: Sequence[int]
+    labels: Any
     angles: Array
     axis: Array
     path: Array
@@ -120,9 +119,9 @@ def _disc(sets: Sequence[Data], place: Place) -> Disc:
         kinds = data.get("cs_type", data.get("CS_types", ()))
         require((not any(kinds), "coordinate systems", [*kinds], "must be Cartesian"))
     nodes = [data for data in sets if data["type"] in NODES]
-    modes = [data for data in sets if _kind(data) == NORMAL_MODE]
-    found = ", ".join(dict.fromkeys(map(_kind, sets)))
-    rule = f"must be nodes, 15 or 2411, and {NORMAL_MODE}, 55 or 2414"
+    modes = [data for data in sets if _is_normal_mode(data)]
+    found = ", ".join(dict.fromkeys(str(data["type"]) for data in sets))
+    rule = "must be nodes, 15 or 2411, and normal modes of displacements, 55 or 2414 (analysis 2, data 8)"
     require((nodes and modes, "datasets", found, rule))
 
     circle = _circle(nodes, modes[0]["node_nums"], length, place)
@@ -137,18 +136,13 @@ def _disc(sets: Sequence[Data], place: Place) -> Disc:
     return Disc(**columns)
 
 
-def _kind(data: Data) -> str:
-    """What a dataset has: normal modes, or what else by its numbers."""
-    number = data["type"]
-    if number not in (55, 2414):
-        return f"{number}"
-    analysis = data["analysis_type"]
+def _is_normal_mode(data: Data) -> bool:
+    """Whether a dataset has displacements of a normal mode at nodes."""
+    if data["type"] not in (55, 2414) or data["data_type"] not in (2, 4):  # of reals
+        return False
     kind = data.get("spec_data_type", data.get("result_type"))
     values = data.get("n_data_per_node", data.get("number_of_data_values_for_the_data_component"))
-    is_real = data["data_type"] in (2, 4)
-    if is_real and (analysis, kind) == (2, 8) and values in (3, 6):
-        return NORMAL_MODE
-    return f"{number} (analysis {analysis}, data {kind})"
+    return (data["analysis_type"], kind) == (2, 8) and values in (3, 6)
 
 
 # ---- Waves along the circle
@@ -159,10 +153,9 @@ def _circle(nodes: Iterable[Data], moved: Array, length: float, place: Place) ->
     axis = np.array(place.axis)
     require((axis.any(), "axis", place.axis, "must not be 0"))
     axis /= np.linalg.norm(axis)
-    columns = [[data[name] for name in ("node_nums", "x", "y", "z")] for data in nodes]
-    numbers, *places = np.concatenate(columns, axis=1)
-    labels, first, _ = np.intersect1d(numbers, moved, return_indices=True)
-    points = np.stack(places, axis=1)[first] * length - place.centre
+    tables = [pd.DataFrame({x: data[x] for x in "xyz"}, data["node_nums"]) for data in nodes]
+    table = pd.concat(tables).sort_index().loc[lambda all_nodes: all_nodes.index.isin(moved)]
+    points = table.to_numpy() * length - place.centre
     heights = points @ axis
     outward = points - np.outer(heights, axis)
     radii = np.linalg.norm(outward, axis=1)
@@ -184,15 +177,15 @@ def _circle(nodes: Iterable[Data], moved: Array, length: float, place: Place) ->
     require((most > 0, "r_0", place.r_0, rule))
     waves = np.outer(angles, np.arange(most + 1))
     cosines, sines = np.split(np.linalg.pinv(np.hstack([np.cos(waves), np.sin(waves)])), 2)
-    return Circle(labels[on].tolist(), angles, axis, path, cosines + 1j * sines)
+    return Circle(table.index[on], angles, axis, path, cosines + 1j * sines)
 
 
 def _wave(data: Data, circle: Circle, unit_mass: float) -> Wave | None:
     """A mode along the circle; None if it does not move that along the axis."""
     frequency, mass, viscous, hysteretic, shape = _mode(data)
     require((mass > 0, "modal mass", mass, f"must be > 0 (mode at {frequency:g} Hz)"))
-    rows = dict(zip(data["node_nums"], shape, strict=True))
-    moved = np.array([rows[label] for label in circle.labels]) / math.sqrt(mass * unit_mass)
+    displacements = pd.DataFrame(shape, data["node_nums"]).loc[circle.labels]
+    moved = displacements.to_numpy() / math.sqrt(mass * unit_mass)
     normal = moved @ circle.axis
     total = normal @ normal
     if total <= UNMOVED**2 * np.sum(moved**2):
@@ -231,21 +224,16 @@ def _pairs(waves: Iterable[Wave]) -> list[list[Wave]]:
     """The waves of each mode of the disc: both halves of a pair, or one."""
     groups: list[list[Wave]] = []
     for wave in sorted(waves):
-        near = [
-            group
-            for group in groups
-            if group[0].diameters == wave.diameters > 0
-            and group[0].omega >= (1 - SAME_PAIR) * wave.omega
-            and len(group) == 1
-        ]
-        if not near:
+        single = {group[0].diameters: group for group in groups if len(group) == 1}
+        near = single.get(wave.diameters, [])
+        if not wave.diameters or not near or near[0].omega < (1 - SAME_PAIR) * wave.omega:
             groups.append([wave])
             continue
-        is_half = math.cos(wave.turn - near[-1][0].turn) ** 2 < SAME_HALF
+        is_half = math.cos(wave.turn - near[0].turn) ** 2 < SAME_HALF
         frequency = f"{wave.omega / math.tau:g} Hz"
         rule = (
             "must not be within 5 % of another one with equal diameters and antinodes at one place"
         )
         require((is_half, "mode", frequency, rule))
-        near[-1].append(wave)
+        near.append(wave)
     return groups

@@ -17,7 +17,7 @@ from xarray import Dataset, DataTree
 
 from disc_model.data.dataset import Missing
 from disc_model.disc.plate import mode_arrays, radial_range
-from disc_model.errors import Fault, ParameterError, raise_faults, require, suggestion
+from disc_model.errors import Fault, ParameterError, require, suggestion
 from disc_model.figures import runs, stability
 from disc_model.figures.draw import bar_of, break_label, colours_of, explain, shares, wished
 from disc_model.figures.modes import draw_campbell
@@ -25,7 +25,7 @@ from disc_model.figures.schema import known_units
 from disc_model.figures.shown import label, shown, shown_case
 from disc_model.figures.shown import window_of as shown_window
 from disc_model.figures.studies import draw_lines, draw_map
-from disc_model.parameters import Parameters, foreign_case
+from disc_model.parameters import Parameters, require_case
 from disc_model.units import Count, Positive, Strict, Unit
 
 USUAL = (
@@ -131,7 +131,7 @@ def campbell(study: Any, highest: Any, multiples: Any, units: Any) -> Any:
 
 def modes(case: Any, most: Any) -> Any:
     """Draw the shapes of modes, as `disc_model.plot_modes` describes."""
-    raise_faults(foreign_case(case))
+    require_case(case)
     radial_range(case)  # raises an error without shapes
     count = min(Wishes(most=most).most, len(mode_arrays(case).omega))
     require((count > 0, "n_diameters", case.n_diameters, "must be >= 0 for modes"))

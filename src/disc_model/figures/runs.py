@@ -178,7 +178,8 @@ def poincare(case: DataTree, below: Cases = ()) -> Figure:
         draw_sections(row, each)
         values = [value_text(each[name]) for name in ("N", "Omega")]
         row[0].set_title(", ".join([*values, *fate_of(each)]))
-        row[1].set_title(f"disc of thickness {value_text(each['h'])}")
+        if "h" in each:  # of a plate
+            row[1].set_title(f"disc of thickness {value_text(each['h'])}")
     for column in rows.T:
         compare(column)
     return figure
@@ -231,8 +232,9 @@ def fate_of(case: DataTree, name: str = "poincare") -> list[str]:
     since = final_since(case, window_of(case, name))
     fate = f"first separation at {first:.2f}\u00a0s"
     if np.isnan(first):
-        ignored = {"bilateral": "separation ignored"}
-        fate = ignored.get(case["contact"].item(), "no separation")
+        fate = "no separation"
+        if Parameters.model_validate_json(case.attrs["parameters"]).contact == "bilateral":
+            fate = "separation ignored"
     if np.isnan(since):
         return [fate, "settling not shown here"]
     return [fate, f"final motion since {since:.0f}\u00a0s"]

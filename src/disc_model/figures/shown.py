@@ -41,8 +41,12 @@ def shown(data: Dataset, units: Mapping[str, str] | None = None) -> Dataset:
 
 
 def shown_case(case: DataTree, units: Mapping[str, str] | None = None) -> DataTree:
-    """The tree of a case, with its numbers as readers see them; `window_of` shows one of its windows."""
-    tree = DataTree(shown(case.to_dataset(inherit=False), units), children=dict(case.children))
+    """The tree of a case, with its numbers and those of its parameters as readers see them; `window_of`
+    shows one of its windows."""
+    p = Parameters.model_validate_json(case.attrs["parameters"])
+    numbers = {name: ((), x, attributes_in_files(name)) for name, x in p.numbers.items()}
+    root = case.to_dataset(inherit=False).assign(numbers)
+    tree = DataTree(shown(root, units), children=dict(case.children))
     tree.attrs["shown_in"] = units
     return tree
 

@@ -14,7 +14,7 @@ from typing import Any, Final, Literal
 import numpy as np
 
 from disc_model.arrays import Array, ComplexArray, EqualByValue
-from disc_model.data.variables import GIVE_A_GUESS, CycleStatus, values_text, with_advice
+from disc_model.data.variables import CycleStatus, values_text, with_advice
 from disc_model.display import Summarised, counted, drawings, number_text
 from disc_model.errors import DiscModelError, require
 from disc_model.parameters import Parameters
@@ -238,7 +238,7 @@ def cycle_from_rest(map_: ReturnMap) -> FloquetResult:
         if all(map_.apart(point, x) > NEAR_REPEAT for point in points):
             break
     sought = f"no cycle of up to {RETURNS_TRIED[-1]} releases was found near the static start"
-    tried = f"{sought} or {followed} releases later, where stick-slip goes on: {GIVE_A_GUESS}"
+    tried = f"{sought} or {followed} releases later, where stick-slip goes on"
     return no_cycle(p, tol, CycleStatus.NO_CYCLE, tried)
 
 

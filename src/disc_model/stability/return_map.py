@@ -22,8 +22,7 @@ from disc_model.engine import columns, loop, section, tangent, transitions
 from disc_model.engine import state as motion
 from disc_model.engine.model import Model, build_state
 from disc_model.engine.series import build_series
-from disc_model.errors import raise_faults
-from disc_model.parameters import RESIDUAL, Parameters, foreign_case
+from disc_model.parameters import RESIDUAL, Parameters, require_case
 from disc_model.simulation.states import (
     State,
     engine_case,
@@ -194,7 +193,7 @@ class ReturnMap:
         *,
         patient: bool = False,
     ) -> None:
-        raise_faults(foreign_case(p))
+        require_case(p)
         self.tol = float(tol)  # kernels are compiled for the types of their arguments
         self.parameters = p
         self.patient = patient

@@ -32,8 +32,8 @@ from disc_model.disc.plate import Modes, modal_damping, mode_arrays, tangential_
 from disc_model.disc.stretched import membrane_forces
 from disc_model.display import Summarised, drawings, number_text
 from disc_model.engine import laws
-from disc_model.errors import StatusBase, raise_faults, require
-from disc_model.parameters import Parameters, foreign_case
+from disc_model.errors import StatusBase, require
+from disc_model.parameters import Parameters, require_case
 from disc_model.simulation.states import State, engine_case
 
 if TYPE_CHECKING:
@@ -269,7 +269,7 @@ def steady_sliding(case: Parameters) -> SteadySliding:
 
 def _equilibrium(case: Parameters) -> SteadySliding:
     """Steady sliding without its eigenvalues, or why there is none."""
-    raise_faults(foreign_case(case))
+    require_case(case)
     if case.Omega == 0:
         return _absent(case, SlidingStatus.AT_REST)
     disc = _Response(case)

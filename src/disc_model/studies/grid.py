@@ -10,14 +10,14 @@ import numpy as np
 import pandas as pd
 from pydantic import BeforeValidator, Field, create_model
 
-from disc_model.data.variables import CHOICES, PERTURBATIONS
+from disc_model.data.variables import PERTURBATIONS
 from disc_model.errors import Fault, ParameterError
 from disc_model.parameters import NUMBER_OR_WORD, Parameters
 from disc_model.studies.quantity import Range, Row, listed_values
 from disc_model.units import Finite, Strict, Unit
 
 VARIED = (*Parameters.model_fields, *PERTURBATIONS)  # what a grid may vary, in this order
-WORDS = (*CHOICES, "disc")  # what varies by words
+WORDS = [name for name in Parameters.model_fields if not Parameters.unit(name)]  # vary by words
 Points = list[dict[Any, Any]]
 """What varies at each point, by name."""
 Dims = Mapping[str, pd.DataFrame]

@@ -18,10 +18,9 @@ from pydantic import AfterValidator, BeforeValidator, Field, model_validator
 from xarray import Dataset
 
 from disc_model.data.coded import words
-from disc_model.data.described import described
-from disc_model.data.variables import OF_QUANTITIES, Variable
-from disc_model.errors import DiscModelError, Fault, ParameterError, raise_faults, suggestion
-from disc_model.parameters import Parameters, foreign_case
+from disc_model.data.variables import OF_QUANTITIES, Variable, described
+from disc_model.errors import DiscModelError, Fault, ParameterError, suggestion
+from disc_model.parameters import Parameters, require_case
 from disc_model.simulation.case import Start
 from disc_model.units import Finite, Positive, Several, Strict, Unit, arguments_of, must
 
@@ -240,7 +239,7 @@ def quantity(
 
         @wraps(function)
         def checked(case: Parameters, *args: Any, **given: Any) -> Dataset:
-            raise_faults(foreign_case(case))
+            require_case(case)
             asked = {**dict(zip(options.model_fields, args, strict=False)), **given}
             chosen = options.model_validate(asked)
             found = function(case, **dict(chosen))

@@ -16,8 +16,7 @@ from xarray import Dataset
 
 from disc_model.data.coded import table_of
 from disc_model.data.dataset import CONVENTIONS
-from disc_model.data.described import described
-from disc_model.data.variables import EXCLUDED, OF_QUANTITIES, Variable
+from disc_model.data.variables import EXCLUDED, OF_QUANTITIES, Variable, described
 from disc_model.parameters import Disc
 from disc_model.provenance import git_commit, physics_hash, versions_text
 from disc_model.simulation.named_case import run_case

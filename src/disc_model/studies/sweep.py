@@ -15,7 +15,7 @@ from xarray import Dataset
 from disc_model.data.columns import result_dataset
 from disc_model.data.variables import COMMON, OF_RESULTS
 from disc_model.errors import Fault, ParameterError, raise_faults, require, suggestion
-from disc_model.parameters import Parameters, foreign_case
+from disc_model.parameters import Parameters, require_case
 from disc_model.provenance import versions_text
 from disc_model.studies.compute import Call, Map, compute, stack
 from disc_model.studies.grid import Points, expand
@@ -73,7 +73,7 @@ def sweep(
     >>> pairs["growth_rate"].sizes, pairs["N"].values
     (Frozen({'N_Omega': 2}), array([385., 300.]))
     """
-    raise_faults(foreign_case(case))
+    require_case(case)
     over = dict(over or {})
     arguments = dict(inspect.signature(function).parameters)
     arguments.pop(next(iter(arguments), ""), None)
