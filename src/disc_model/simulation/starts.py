@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from functools import lru_cache
 
+from disc_model.disc.plate import mode_arrays
 from disc_model.errors import require
 from disc_model.parameters import Parameters
 from disc_model.simulation import states
@@ -60,17 +61,15 @@ def initial_state(
 
 def make_initial_state(p: Parameters, start: Start, tol: float) -> State | None:
     """The initial state of a motion of case `p`, at time 0; None is the static start. Raises
-    `SimulationError` if the preceding motion ends early, `ParameterError` if its disc has another
-    number of modes."""
+    `SimulationError` if the preceding motion ends early, `ParameterError` if its disc has other
+    modes."""
     state = None
     if start.prerun is not None:
         other = p.replace(**start.prerun.parameters)
-        for name in ("n_diameters", "n_circles"):
-            count = getattr(other, name)
-            needed = getattr(p, name)
-            path = f"start.prerun.parameters.{name}"
-            require((count == needed, path, count, f"must be that of the case, {needed}"))
-        state = states.transfer_state(p, _end_of(other, start.prerun.time, tol))
+        state = _end_of(other, start.prerun.time, tol).replace(time=0.0)
+        same = states.belongs_to(state, mode_arrays(p).psi)
+        rule = "must leave the modes of the disc as they are"
+        require((same, "start.prerun.parameters", start.prerun.parameters, rule))
     kick = {name: value for name, value in start if name != "prerun" and value}
     if not kick:
         return state

@@ -6,13 +6,13 @@ from __future__ import annotations
 import dataclasses
 import math
 from collections import defaultdict
-from collections.abc import Iterable
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache, lru_cache
 from typing import Annotated, Any
 
 import numpy as np
-from pydantic import PlainValidator
+from pydantic import InstanceOf, PlainValidator
 
 from disc_model.arrays import Array, EqualByValue
 from disc_model.data.variables import PHASES
@@ -121,17 +121,13 @@ class State(EqualByValue):
         """What names it in a row of a table."""
         return f"State({self.time:.6g} s, {self.phase})"
 
-    def slider_angle(self, case: Parameters) -> float:
-        """Angle of the slider on the disc, rad, from the place where it was at the time 0: that of
-        the drive point, less psi."""
-        if self.drive_angle is None:
-            return case.Omega * self.time - self.psi
-        return self.drive_angle - self.psi
-
     def material_angle(self, case: Parameters) -> float:
         """Angle on the disc of the material point under the slider, rad, about which modal
-        coordinates are resolved: `slider_angle` less `surface_turn`."""
-        return self.slider_angle(case) - self.surface_turn
+        coordinates are resolved: that of the drive point, less psi and `surface_turn`."""
+        turned = self.drive_angle
+        if turned is None:
+            turned = case.Omega * self.time
+        return turned - self.psi - self.surface_turn
 
 
 def static_start(p: Parameters) -> State:
@@ -160,9 +156,7 @@ def perturb(
         "f": state.f + f,
     }
     if f and state.phase != "separation":
-        rate = f
-        if state.phase == "slip":
-            rate += slip_rate(p, state)
+        rate = slip_rate(p, state) + f
         changes |= {"phase": "slip" if rate else "stick", "direction": int(np.sign(rate))}
     return state.replace(**changes)
 
@@ -175,33 +169,6 @@ def slip_rate(p: Parameters, state: State) -> float:
 def surface_rate(p: Parameters, state: State) -> float:
     """Speed of the disc's surface under the slider over r_0, rad/s."""
     return float(engine_case(p).surface @ state.beta)
-
-
-def transfer_state(p: Parameters, state: State) -> State:
-    """A state of another case at time 0 of case `p`, with the same modal coordinates and distance
-    of slider and disc, which is zero in rigid contact. A state with another number of modes is
-    passed on, and `simulate` refuses it."""
-    modes = mode_arrays(p)
-    if len(modes.psi) != len(state.a):
-        return state.replace(time=0.0)
-    more = np.zeros(len(modes.psi))
-    if state.mode_amplitudes is not None:
-        more = modes.psi - state.mode_amplitudes
-    u = state.u + more @ state.a
-    f = state.f
-    direction = state.direction
-    if state.phase != "separation" and p.contact_compliance == 0:
-        u = modes.psi @ state.a
-    surface = surface_rate(p, state)
-    if state.phase == "stick":
-        f = surface
-    elif state.phase == "slip" and f != surface:
-        direction = int(np.sign(f - surface))
-    slope = more @ (modes.diameters * state.b)
-    velocity = state.u_velocity + more @ state.alpha + (f - surface) * slope
-    return state.replace(
-        time=0.0, f=f, direction=direction, u=u, u_velocity=velocity, mode_amplitudes=modes.psi
-    )
 
 
 def _numbers(values: object) -> Array:
@@ -220,7 +187,12 @@ Angles = Annotated[Any, PlainValidator(_numbers), Unit("rad")]
 
 
 @checked
-def deflection(case: Parameters, states: Any, r: Radii, theta: Angles) -> Any:
+def deflection(
+    case: Parameters,
+    states: InstanceOf[State] | Sequence[InstanceOf[State]],
+    r: Radii,
+    theta: Angles,
+) -> Any:
     """Displacement w(r, theta, t) of the whole disc, upward, Eq. (15).
 
     Parameters
@@ -253,15 +225,12 @@ def deflection(case: Parameters, states: Any, r: Radii, theta: Angles) -> Any:
 
     modes = mode_arrays(case)
     low, high = radial_range(case)
-    given = states
-    if isinstance(states, State):
-        given = [states]
-    fit = isinstance(given, Iterable) and all(_fits(state, modes.psi) for state in given)
+    given = [states] if isinstance(states, State) else states
     rule = f"must be within {as_text(low)} and {as_text(high)}"
-    require(
-        (np.all((low <= r) & (r <= high)), "r", r.tolist(), rule),
-        (fit, "states", states, f"must be states of the case, with {len(modes.psi)} modes"),
-    )
+    require((np.all((low <= r) & (r <= high)), "r", r.tolist(), rule))
+    for state in given:
+        rule = f"must be states of the case, with {len(modes.psi)} modes"
+        require((belongs_to(state, modes.psi), "states", state, rule))
     shapes = mode_shapes(case, r).T
     w = []
     for state in given:
@@ -416,7 +385,7 @@ def write_state(
     modal = np.concatenate([getattr(source, name) for name in MODAL])
     state.disc[case.places] = modal[case.present]
     gap = _checked_gap(case, source, state, is_start=is_start)
-    rate = _rate_over_material(case, source)
+    rate = _checked_rate(case, source)
 
     # the engine's scalars are those of `PLAIN`, with the rate over the material in place of f
     values = [getattr(source, name) for name in PLAIN]
@@ -429,6 +398,44 @@ def write_state(
     motion.put_phase(state, phase, direction, source._roots)
     at_event = any(source._roots) and source.case_key != (key or case.key)
     return at_event and _forget_switch(case, state)
+
+
+def _check(state: State, case: EngineCase) -> None:
+    """Raise `ParameterError` if a value of a state is none, or the state is one of other modes."""
+    count = len(case.amplitudes)
+    rules = []
+    for name in MODAL:
+        values = getattr(state, name)
+        rule = f"must be {count} finite numbers, one per row of plate_modes"
+        good = np.shape(values) == (count,) and np.asarray(values).dtype.kind in "fiu"
+        rules.append((good and np.isfinite(values).all(), f"initial_state.{name}", values, rule))
+    plain = {name: getattr(state, name) for name in PLAIN}
+    if state.drive_angle is not None:
+        plain["drive_angle"] = state.drive_angle
+    for name, value in plain.items():
+        good = is_number(value) and math.isfinite(value)
+        rules.append((good, f"initial_state.{name}", value, "must be a finite number"))
+    require(*rules)
+    signed = state.phase != "slip" or state.direction in (-1, 1)
+    others = "must be psi of plate_modes: the state belongs to other modes"
+    own = belongs_to(state, case.amplitudes)
+    require(
+        (state.phase in PHASES, "initial_state.phase", state.phase, rule_of_choice(PHASES)),
+        (signed, "initial_state.direction", state.direction, "must be -1 or 1 in slip"),
+        (own, "initial_state.mode_amplitudes", state.mode_amplitudes, others),
+    )
+
+
+def belongs_to(state: State, amplitudes: Array) -> bool:
+    """Whether a state is one of modes with these amplitudes, shape (n_modes,)."""
+    stated = state.mode_amplitudes
+    if stated is None:
+        return len(state.a) == len(amplitudes)
+    if stated is amplitudes:  # as nearly always, and at once
+        return True
+    # modes from two processors differ by at most 1e-13 (measured)
+    within = 1e-9 * np.max(np.abs(amplitudes), initial=0.0)
+    return np.shape(stated) == amplitudes.shape and np.allclose(stated, amplitudes, 0, within)
 
 
 def _checked_gap(case: EngineCase, source: State, state: EngineState, *, is_start: bool) -> float:
@@ -453,17 +460,22 @@ def _checked_gap(case: EngineCase, source: State, state: EngineState, *, is_star
     return gap
 
 
-def _rate_over_material(case: EngineCase, source: State) -> float:
-    """The rate g of a state that `_check` has found good: 0 in stick, and where only rounding makes
-    it differ from 0 or from the direction of slip."""
+def _checked_rate(case: EngineCase, source: State) -> float:
+    """The rate g over the material, rad/s: 0 in stick, and where only rounding makes it differ from 0
+    or from the direction of slip. Raises `ParameterError` if it differs by more."""
     surface = float(case.surface @ source.beta)
     rate = source.f - surface
     if source.phase == "separation":
         return rate
-    begins = source._roots[0] > 0
-    rounding = begins and abs(rate) <= SAME_SPEED * (case.model.Omega + abs(surface))
-    against = rate * source.direction < 0
-    if rounding or against or source.phase == "stick":
+    if source.phase == "stick":
+        rule = f"must be {surface:.9g} in stick, the disc's surface's"
+        require((abs(rate) <= SAME_SPEED * abs(surface), "initial_state.f", source.f, rule))
+        return 0.0
+    rounding = SAME_SPEED * (case.model.Omega + abs(surface))
+    rule = f"must have the sign of direction={source.direction}, less the surface's {surface:.9g}"
+    require((rate * source.direction >= -rounding, "initial_state.f", source.f, rule))
+    begins = source._roots[0] > 0 and abs(rate) <= rounding
+    if begins or rate * source.direction < 0:
         return 0.0
     return rate
 
@@ -492,57 +504,6 @@ def _forget_switch(case: EngineCase, state: EngineState) -> bool:
     else:
         motion.put_phase(state, phase, direction)
     return False
-
-
-def _check(state: State, case: EngineCase) -> None:
-    """Raise `ParameterError` if a state cannot be the initial one of a case."""
-    path = "initial_state."
-    count = len(case.amplitudes)
-    rules = []
-    for name in MODAL:
-        values = getattr(state, name)
-        rule = f"must be {count} finite numbers, one per row of plate_modes"
-        good = np.shape(values) == (count,) and np.asarray(values).dtype.kind in "fiu"
-        rules.append((good and np.isfinite(values).all(), path + name, values, rule))
-    plain = {name: getattr(state, name) for name in PLAIN}
-    if state.drive_angle is not None:
-        plain["drive_angle"] = state.drive_angle
-    for name, value in plain.items():
-        good = is_number(value) and math.isfinite(value)
-        rules.append((good, path + name, value, "must be a finite number"))
-    signed = state.phase != "slip" or state.direction in (-1, 1)
-    require(
-        *rules,
-        (state.phase in PHASES, path + "phase", state.phase, rule_of_choice(PHASES)),
-        (signed, path + "direction", state.direction, "must be -1 or 1 in slip"),
-    )
-    surface = float(case.surface @ state.beta)
-    off = state.f - surface
-    rounding = SAME_SPEED * (case.model.Omega + abs(surface))
-    held = state.phase != "stick" or abs(off) <= SAME_SPEED * abs(surface)
-    ahead = state.phase != "slip" or off * state.direction >= -rounding
-    signs = f"must have the sign of direction={state.direction}, less the surface's {surface:.9g}"
-    others = "must be psi of plate_modes: the state belongs to other modes"
-    digit = math.ulp(state.time)  # of which the clock's compensation is a part
-    rule = "must be less than the last digit of the time"
-    require(
-        (abs(state.time_low) <= digit, path + "time_low", state.time_low, rule),
-        (held, path + "f", state.f, f"must be {surface:.9g} in stick, the disc's surface's"),
-        (ahead, path + "f", state.f, signs),
-        (_fits(state, case.amplitudes), path + "mode_amplitudes", state.mode_amplitudes, others),
-    )
-
-
-def _fits(state: object, amplitudes: Array) -> bool:
-    """Whether this is a state of modes with these amplitudes, shape (n_modes,)."""
-    if not isinstance(state, State) or len(state.a) != len(amplitudes):
-        return False
-    stated = state.mode_amplitudes
-    if stated is None or stated is amplitudes:
-        return True
-    # modes from two processors differ by at most 1e-13 (measured)
-    within = 1e-9 * np.max(np.abs(amplitudes), initial=0.0)
-    return np.shape(stated) == amplitudes.shape and np.allclose(stated, amplitudes, 0, within)
 
 
 # Local truncation error for a tolerance of 1, on rigid and on compliant contact. With it the errors
