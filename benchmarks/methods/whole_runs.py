@@ -58,7 +58,7 @@ def solve_by_series(problem: Problem, value: float, budget: float) -> MethodResu
         final=result.final_state,
         # the time of the steps; of a long run, which other processes may have interrupted, that of
         # the call
-        seconds=min(result.statistics["wall_time"], call),
+        seconds=min(result.wall_time, call),
         outcome=outcome,
     )
 

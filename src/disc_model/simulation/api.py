@@ -23,7 +23,7 @@ from disc_model.simulation.case import (
     resolved_windows,
 )
 from disc_model.simulation.result import Result
-from disc_model.simulation.run import Request, Run
+from disc_model.simulation.run import Run
 from disc_model.simulation.states import State
 from disc_model.units import Seconds, Tolerance, checked
 
@@ -113,8 +113,8 @@ def simulate(  # noqa: PLR0913
     if tol > loosest:
         used = f"tol={tol:g}: the series need {loosest:g} at most, which is used"
         warnings.warn(used, stacklevel=4)
-    request = Request(
-        case=case,
+    run = Run(
+        parameters=case,
         t_end=end,
         windows=sampled,
         events=events,
@@ -124,7 +124,7 @@ def simulate(  # noqa: PLR0913
         ramps=ramps,
         execution=execution,
     )
-    return Run(request, start).complete()
+    return run.complete()
 
 
 @checked

@@ -8,11 +8,11 @@ import math
 from collections import defaultdict
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cache, lru_cache
+from functools import cache, lru_cache, partial
 from typing import Annotated, Any
 
 import numpy as np
-from pydantic import InstanceOf, PlainValidator
+from pydantic import InstanceOf, PlainSerializer, PlainValidator
 
 from disc_model.arrays import Array, EqualByValue
 from disc_model.data.variables import PHASES
@@ -42,6 +42,12 @@ PLAIN = ("time", "time_low", "psi", "f", "u", "u_velocity", "surface_turn")
 SAME_HEIGHT = 1e-9
 INSIDE = 1e-5  # likewise, by which errors of the loosest series may put a slider into the disc
 SAME_SPEED = 1e-9  # relative to the drive's: a slip by less against its direction is rounding too
+
+
+Modal = Annotated[
+    Array, PlainValidator(partial(np.array, dtype=float)), PlainSerializer(np.ndarray.tolist)
+]
+"""An array of numbers, a list in files."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -85,15 +91,15 @@ class State(EqualByValue):
     f: float
     u: float
     u_velocity: float
-    a: Array
-    b: Array
-    alpha: Array
-    beta: Array
+    a: Modal
+    b: Modal
+    alpha: Modal
+    beta: Modal
     time_low: float = 0.0
     surface_turn: float = 0.0
     drive_angle: float | None = None
     case_key: str = ""
-    mode_amplitudes: Array | None = None
+    mode_amplitudes: Modal | None = None
     _roots: tuple[int, int] = (0, 0)  # multiplicity at this instant, `engine.state.known_roots`
 
     def replace(self, **changes: Any) -> State:
