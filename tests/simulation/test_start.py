@@ -25,8 +25,8 @@ def test_a_start_is_a_state() -> None:
     before = transfer_state(P, simulate(P.replace(Omega=14.0), 0.5).final_state)
     assert initial_state(P) == static_start(P)
     assert initial_state(P, KICK) == perturb(P, static_start(P), **KICK)
-    assert initial_state(P, prerun=PRERUN) == before
-    assert initial_state(P, KICK, prerun=PRERUN) == perturb(P, before, **KICK)
+    assert initial_state(P, {"prerun": PRERUN}) == before
+    assert initial_state(P, KICK | {"prerun": PRERUN}) == perturb(P, before, **KICK)
 
     reached = outcome(P, 45, start=KICK)
     run = simulate(P, 45, initial_state=initial_state(P, KICK))

@@ -47,8 +47,8 @@ SAMPLE_ROW = record.SAMPLE_ROW[1:]
 FOLDED = ("P", "u", "w", "w_point", "psi", "psi_velocity")
 BIN_ROW = ("time", *(f"{name}_{end}" for name in FOLDED for end in ("min", "max")))
 """Columns of a window with an envelope."""
-BESIDE_HEADER = frozenset({"event_rows", "samples", "wall_time"})
-"""Fields of a result that the header of its file does not hold."""
+ARRAYS = frozenset({"event_rows", "samples"})
+"""Fields of a result that its file holds as variables."""
 CYCLES = 4  # of stick and slip that pictures show of the end of a run
 SHORTEST = 0.1  # s, of the end of a run that is shown where nothing repeats within a second
 BINS = 600  # of the envelope of a run
@@ -80,7 +80,6 @@ class Result(Summarised, EqualByValue):
     statistics : steps, n_events, n_separations, time_stick, time_slip, time_separation (s); of the audit of energies
         energy_residual, audited_steps and, nan unless every step is audited, energy_residual_transverse and
         energy_residual_inplane; surface_speed, nan unless friction acts on a surface that moves
-    wall_time : s, that the computation took; nan if it is not known
     versions : JSON of the versions of disc_model and of what it uses, by which the motion was computed
 
     Examples
@@ -111,7 +110,6 @@ class Result(Summarised, EqualByValue):
     samples: Mapping[str, dict[str, Array]] = field(default_factory=dict)
     ramps: tuple[Ramp, ...] = ()
     initial_state: State | None = field(default=None, repr=False)
-    wall_time: float = field(default=math.nan, repr=False, compare=False)
     versions: str = field(default_factory=versions_text, repr=False, compare=False)
 
     @property
@@ -217,7 +215,7 @@ class Result(Summarised, EqualByValue):
         from disc_model.data.dataset import save
 
         tree = self.to_tree()
-        header = TypeAdapter(Result).dump_json(self, exclude=set(BESIDE_HEADER))
+        header = TypeAdapter(Result).dump_json(self, exclude=set(ARRAYS))
         tree.attrs["result"] = header.decode()
         directions = self.event_rows[:, EVENT_ROW.index("direction")]
         tree["events"].dataset = tree["events"].to_dataset().assign(direction=("event", directions))
@@ -254,8 +252,7 @@ class Result(Summarised, EqualByValue):
 
     @classmethod
     def load(cls, path: str | Path) -> Result:
-        """Return what `save` has written to a file, to the last bit, but for the `wall_time`, which
-        is nan. It equals the result that was saved.
+        """Return what `save` has written to a file, to the last bit. It equals the result that was saved.
 
         Raises
         ------
@@ -296,15 +293,12 @@ class Result(Summarised, EqualByValue):
         return f"Result(N={p.N:g} N, Omega={p.Omega:g} rad/s{ramped}: {ended}, {lost}, {events} events, {windows})"
 
     def _summary(self) -> Iterator[tuple[str, object]]:
-        s = self.statistics
         yield "case", values_text(dict(self.parameters))
         yield "status", self.message or self.status.value
         yield "advice", self.status.advice * (not self.status.complete)
-        yield "first separation", number_text(self.first_separation, "s", 9) or "none"
-        for phase in PHASES:
-            yield f"time in {phase}", f"{s[f'time_{phase}']:.6g} s"
-        for name in ("n_events", "steps", "energy_residual"):
-            yield name.replace("n_", "").replace("_", " "), f"{s[name]:.7g}"
+        for name, value in self.scalars().items():
+            variable = SCALARS[name]
+            yield name.replace("_", " "), number_text(value, variable.units.strip("1"), 9)
 
     def raise_for_status(self) -> Result:
         """Return self if the run is complete; otherwise raise its `SimulationError`."""

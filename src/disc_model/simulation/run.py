@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import time as clock
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
@@ -18,7 +17,7 @@ from disc_model.engine.jit import compiled_for
 from disc_model.engine.jit.cache import compiling
 from disc_model.engine.model import blocks_of, flags_of, on_ramp, slope_under_slider
 from disc_model.engine.stick_modes import LONGEST_STICK
-from disc_model.errors import Fault, ParameterError, Status
+from disc_model.errors import Status, require
 from disc_model.parameters import Parameters
 from disc_model.provenance import content_key
 from disc_model.simulation import states
@@ -27,6 +26,7 @@ from disc_model.simulation.result import BIN_ROW, FOLDED, SAMPLE_ROW, Result
 from disc_model.simulation.states import State
 
 MOST_STEPS = 2**62  # largest number of steps that the engine can count
+MOST_SAMPLES = 10**9  # of a window: far more than memory holds
 # steps between two pauses of the engine where a step is cheapest: about 0.1 s of work
 STEPS_PER_PAUSE = 100_000
 # rows of samples between two pauses: large enough for cheap draining, small enough for the cache
@@ -75,7 +75,6 @@ class Run:
         if self.ramps:
             self.key = content_key(self.case.key + repr(self.ramps))
         self.pieces = pieces(self.parameters, self.ramps)
-        self.wall_time = 0.0
         self.first_separation = math.nan  # s
         self.event_rows: list[Array] = []
 
@@ -96,11 +95,7 @@ class Run:
         self.samples: dict[str, Samples] = {}
         self.buffers = self._new_buffers(start)
 
-        # in reverse order, so that the first piece is current at the end; compiling here keeps it
-        # out of the wall time
-        for index, piece in reversed(tuple(enumerate(self.pieces))):
-            if start < piece.end and piece.begin < self.t_end:
-                self._enter(index)
+        self._enter(next(i for i, piece in enumerate(self.pieces) if start < piece.end))
         if at_switch:
             self._begin_at_switch()
 
@@ -115,10 +110,9 @@ class Run:
             # the engine knows the angle without the lead
             grids.append(grid._replace(theta=grid.theta - self.lead))
             per_step += 1 + math.ceil(min(longest / grid.interval, grid.number))
-            try:
-                self.samples[name] = Samples(grid.number, getattr(window, "envelope", None) or 1)
-            except (MemoryError, ValueError) as error:
-                raise ParameterError(Fault(("windows", name), "", f"{error}: too many")) from None
+            rule = f"must have {MOST_SAMPLES:.0e} samples at most"
+            require((grid.number <= MOST_SAMPLES, f"windows.{name}", window, rule))
+            self.samples[name] = Samples(getattr(window, "envelope", None) or 1)
         capacity = BUFFER if grids else 0
         return record.RunBuffers(
             np.zeros(record.N_COUNTERS, np.int64),
@@ -190,29 +184,21 @@ class Run:
         for sums in (buffers.counters, buffers.phase_times, buffers.audit):
             sums.fill(0)
 
-    def complete(self) -> Result:
-        """Compute to the end."""
-        code = self.advance()
-        while code == transitions.PAUSED:
-            code = self.advance()
-        return self.result(_STATUS[code])
-
     @property
     def time(self) -> float:
         """The time reached, s."""
         return motion.time_of(self.state)
 
-    def advance(self) -> int:
-        """Compute until the engine pauses or ends, and empty its buffers.  Returns the exit
-        code."""
-        began = clock.perf_counter()
-        code = self.engine(*self._arguments())
-        if code == transitions.TIME_OVER and self.limits.t_end < self.t_end:
-            self._enter(self.index + 1)
-            code = transitions.PAUSED
-        self._drain()
-        self.wall_time += clock.perf_counter() - began
-        return code
+    def complete(self) -> Result:
+        """Compute to the end, and empty the buffers in each pause of the engine."""
+        code = transitions.PAUSED
+        while code == transitions.PAUSED:
+            code = self.engine(*self._arguments())
+            if code == transitions.TIME_OVER and self.limits.t_end < self.t_end:
+                self._enter(self.index + 1)
+                code = transitions.PAUSED
+            self._drain()
+        return self._result(_STATUS[code])
 
     def _arguments(self) -> tuple[Any, ...]:
         return self.model, self.series, self.state, self.probe, self.limits, self.buffers
@@ -229,7 +215,7 @@ class Run:
         for i, samples in enumerate(self.samples.values()):
             samples.add(rows[rows[:, 0] == i, 1:])
 
-    def result(self, status: Status) -> Result:
+    def _result(self, status: Status) -> Result:
         """Assemble the result of the run, which ends here: other runs of the case may use its
         arrays."""
         angle = angle_of_drive(self.pieces, self.time) + self.lead
@@ -260,7 +246,6 @@ class Run:
             samples={name: samples.arrays() for name, samples in self.samples.items()},
             ramps=self.ramps,
             initial_state=self.initial_state,
-            wall_time=self.wall_time,
         )
 
     def _statistics(self) -> dict[str, float]:
@@ -290,14 +275,12 @@ class Run:
 
 
 class Samples:
-    """Samples of a window, or bins of an envelope, in columns for as many as there may be, of which
-    some are filled."""
+    """Samples of a window, or the bins of an envelope of so many samples each."""
 
-    def __init__(self, count: int, fold: int) -> None:
-        self.names = BIN_ROW if fold > 1 else SAMPLE_ROW
-        self.columns = np.empty((len(self.names), count // fold))
+    def __init__(self, fold: int) -> None:
         self.fold = fold
-        self.filled = 0
+        self.names = BIN_ROW if fold > 1 else SAMPLE_ROW
+        self.parts = [np.empty((0, len(self.names)))]
         self.rest = np.empty((0, len(SAMPLE_ROW)))  # rows of the bin that is not full
 
     def add(self, rows: Array) -> None:
@@ -307,13 +290,12 @@ class Samples:
             whole = len(rows) // self.fold * self.fold
             self.rest = rows[whole:]
             rows = _fold(rows[:whole].reshape(-1, self.fold, len(SAMPLE_ROW)))
-        filled = self.filled + len(rows)
-        self.columns[:, self.filled : filled] = rows.T
-        self.filled = filled
+        self.parts.append(rows)
 
     def arrays(self) -> dict[str, Array]:
         """What was recorded, by name."""
-        return dict(zip(self.names, self.columns[:, : self.filled], strict=True))
+        columns = np.concatenate([part.T for part in self.parts], axis=1)
+        return dict(zip(self.names, columns, strict=True))
 
 
 def _fold(cells: Array) -> Array:

@@ -9,29 +9,23 @@ from disc_model.errors import require
 from disc_model.parameters import Parameters
 from disc_model.simulation import states
 from disc_model.simulation.api import simulate
-from disc_model.simulation.case import Prerun, Start
+from disc_model.simulation.case import Start
 from disc_model.simulation.states import State
 from disc_model.units import Tolerance, checked
 
 
 @checked
-def initial_state(
-    case: Parameters,
-    start: Start | None = None,
-    *,
-    prerun: Prerun | None = None,
-    tol: Tolerance = 1e-10,
-) -> State:
+def initial_state(case: Parameters, start: Start | None = None, *, tol: Tolerance = 1e-10) -> State:
     """State from which `outcome`, or a point of a study, starts, for the `initial_state` of
     `simulate`, `snapshots` and `lyapunov_exponents`.
 
     Parameters
     ----------
     case : the case
-    start : perturbations of the static start by name, as in `outcome`: u (m), u_velocity (m/s), f (rad/s)
-    prerun : another case that is simulated first, from the static start, as in study files: its `parameters` that
-        differ from the case's, and the `time` (s) after which its state is taken. The perturbations are added to this
-        state
+    start : as in `outcome` and in study files, by name: u (m), u_velocity (m/s) and f (rad/s) are added to the static
+        start, or to the state after a "prerun", another case that is simulated first, from the static start: its
+        "parameters" that differ from the case's, which must leave the modes of the disc as they are, and the "time" (s)
+        after which its state is taken
     tol : as in `simulate`, of the prerun
 
     Returns
@@ -55,8 +49,7 @@ def initial_state(
     >>> print(f"{dm.simulate(case, 60).first_separation} s, {run.first_separation:.2f} s")
     nan s, 42.23 s
     """
-    begin = (start or Start()).replace(prerun=prerun)
-    return make_initial_state(case, begin, tol) or states.static_start(case)
+    return make_initial_state(case, start or Start(), tol) or states.static_start(case)
 
 
 def make_initial_state(p: Parameters, start: Start, tol: float) -> State | None:

@@ -345,33 +345,22 @@ def read_state(
     modal = np.zeros(4 * len(case.amplitudes))
     modal[case.present] = state.disc[case.places]
     modal.setflags(write=False)
-    a, b, alpha, beta = modal.reshape(4, -1)
+    modes: dict[str, Any] = dict(zip(MODAL, modal.reshape(4, -1), strict=True))
     phase = motion.phase_of(state)
     direction = motion.direction_of(state)
-    scalars = motion.scalars_of(state)
-    rate = scalars["g"]
+    scalars: dict[str, Any] = motion.scalars_of(state)
+    rate = scalars.pop("g")
     if phase == SLIP and rate * direction < 0:
         rate = 0.0  # slip that has just begun or is about to end, and g is rounding
     w, velocity, slope, surface = case.point.dot(state.disc).tolist()
-    u = scalars["u"]
-    u_velocity = scalars["u_velocity"]
     if phase != SEPARATION and not case.model.has_compliance:
-        u = w
-        u_velocity = velocity + rate * slope
+        scalars |= {"u": w, "u_velocity": velocity + rate * slope}
     return State(
-        time=scalars["time"],
+        **scalars,
+        **modes,
         phase=PHASES[phase],
         direction=direction,
-        psi=scalars["psi"],
         f=rate + surface,
-        u=u,
-        u_velocity=u_velocity,
-        a=a,
-        b=b,
-        alpha=alpha,
-        beta=beta,
-        time_low=scalars["time_low"],
-        surface_turn=scalars["surface_turn"],
         drive_angle=drive_angle,
         case_key=key or case.key,
         mode_amplitudes=case.amplitudes,
@@ -409,26 +398,23 @@ def write_state(
 def _check(state: State, case: EngineCase) -> None:
     """Raise `ParameterError` if a value of a state is none, or the state is one of other modes."""
     count = len(case.amplitudes)
-    rules = []
+    rule = f"must be {count} finite numbers, one per row of plate_modes"
     for name in MODAL:
         values = getattr(state, name)
-        rule = f"must be {count} finite numbers, one per row of plate_modes"
         good = np.shape(values) == (count,) and np.asarray(values).dtype.kind in "fiu"
-        rules.append((good and np.isfinite(values).all(), f"initial_state.{name}", values, rule))
-    plain = {name: getattr(state, name) for name in PLAIN}
-    if state.drive_angle is not None:
-        plain["drive_angle"] = state.drive_angle
-    for name, value in plain.items():
+        require((good and np.isfinite(values).all(), f"initial_state.{name}", values, rule))
+    numbers = {name: getattr(state, name) for name in PLAIN}
+    numbers["drive_angle"] = state.drive_angle or 0.0
+    for name, value in numbers.items():
         good = is_number(value) and math.isfinite(value)
-        rules.append((good, f"initial_state.{name}", value, "must be a finite number"))
-    require(*rules)
+        require((good, f"initial_state.{name}", value, "must be a finite number"))
     signed = state.phase != "slip" or state.direction in (-1, 1)
-    others = "must be psi of plate_modes: the state belongs to other modes"
     own = belongs_to(state, case.amplitudes)
+    rule = "must be psi of plate_modes: the state belongs to other modes"
     require(
         (state.phase in PHASES, "initial_state.phase", state.phase, rule_of_choice(PHASES)),
         (signed, "initial_state.direction", state.direction, "must be -1 or 1 in slip"),
-        (own, "initial_state.mode_amplitudes", state.mode_amplitudes, others),
+        (own, "initial_state.mode_amplitudes", state.mode_amplitudes, rule),
     )
 
 
@@ -451,18 +437,15 @@ def _checked_gap(case: EngineCase, source: State, state: EngineState, *, is_star
     w = float(row.dot(state.disc))
     gap = source.u - w
     place = "at"
-    room = SAME_HEIGHT
-    free: object = case.model.has_compliance
+    good = case.model.has_compliance or gap == 0
+    size = float(np.abs(row).dot(np.abs(state.disc))) + abs(source.u_velocity) * case.model.unit
     if source.phase == "separation":
         place = "at or above"
-        room = INSIDE
-        free = gap > 0 or not is_start
-    if gap == 0 or free:
-        return gap
-    size = float(np.abs(row).dot(np.abs(state.disc))) + abs(source.u_velocity) * case.model.unit
-    where = f"{place} the disc under the slider, {w:.9g}, in {source.phase}"
-    rule = f"must be {where}: change a with it"
-    require((abs(gap) <= room * size, "initial_state.u", source.u, rule))
+        good = not is_start or gap >= -INSIDE * size
+    rule = (
+        f"must be {place} the disc under the slider, {w:.9g}, in {source.phase}: change a with it"
+    )
+    require((good or abs(gap) <= SAME_HEIGHT * size, "initial_state.u", source.u, rule))
     return gap
 
 
