@@ -411,10 +411,13 @@ def _check(state: State, case: EngineCase) -> None:
     signed = state.phase != "slip" or state.direction in (-1, 1)
     own = belongs_to(state, case.amplitudes)
     rule = "must be psi of plate_modes: the state belongs to other modes"
+    digit = math.ulp(state.time)  # of which the clock's compensation is a part
+    less = "must be less than the last digit of the time"
     require(
         (state.phase in PHASES, "initial_state.phase", state.phase, rule_of_choice(PHASES)),
         (signed, "initial_state.direction", state.direction, "must be -1 or 1 in slip"),
         (own, "initial_state.mode_amplitudes", state.mode_amplitudes, rule),
+        (abs(state.time_low) <= digit, "initial_state.time_low", state.time_low, less),
     )
 
 
