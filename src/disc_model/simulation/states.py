@@ -390,9 +390,28 @@ def write_state(
     if phase == SLIP and case.model.has_compliance and rate == gap == 0 and not any(source._roots):
         phase = STICK  # no force, and so no friction that slip could overcome
     direction = source.direction * (phase == SLIP)
-    motion.put_phase(state, phase, direction, source._roots)
     at_event = any(source._roots) and source.case_key != (key or case.key)
-    return at_event and _forget_switch(case, state)
+    if not at_event:
+        motion.put_phase(state, phase, direction, source._roots)
+        return False
+
+    # an event function that vanishes in another case need not vanish here
+    sizes = SAME_HEIGHT * np.abs(case.point).dot(np.abs(state.disc))
+    _, velocity, slope, _ = case.point.dot(state.disc)
+    opening = source.u_velocity - velocity - rate * slope
+    touches = abs(gap) <= sizes[0]
+    rests = abs(opening) <= sizes[1] + abs(rate) * sizes[2]
+    if phase == SEPARATION and touches and not rests:
+        motion.put_phase(state, phase, direction, (int(opening > 0), 0))
+    elif case.model.has_compliance and touches and source._roots[1] > 0:
+        motion.put_phase(state, phase, direction, (int(rate == 0 and phase == SLIP), 1))
+    elif touches or phase == SLIP:
+        # a slider that rests on the disc: does contact last?
+        motion.put_phase(state, SLIP if rate else STICK, int(np.sign(rate)))
+        return True
+    else:
+        motion.put_phase(state, phase, direction)
+    return False
 
 
 def _check(state: State, case: EngineCase) -> None:
@@ -470,32 +489,6 @@ def _checked_rate(case: EngineCase, source: State) -> float:
     if begins or rate * source.direction < 0:
         return 0.0
     return rate
-
-
-def _forget_switch(case: EngineCase, state: EngineState) -> bool:
-    """Adapt a state at an event of another case: an event function that vanishes there need not
-    vanish here. Returns whether the engine must determine if contact lasts: a slider that rests on
-    the disc is put into contact."""
-    sizes = np.abs(case.point).dot(np.abs(state.disc))
-    w, velocity, slope, _ = case.point.dot(state.disc)
-    scalars = motion.scalars_of(state)
-    phase = motion.phase_of(state)
-    direction = motion.direction_of(state)
-    rate = scalars["g"]
-    begins = motion.known_roots(state)[1] > 0
-    opening = scalars["u_velocity"] - velocity - rate * slope
-    touches = abs(scalars["u"] - w) <= SAME_HEIGHT * sizes[0]
-    rests = abs(opening) <= SAME_HEIGHT * (sizes[1] + abs(rate) * sizes[2])
-    if phase == SEPARATION and touches and not rests:
-        motion.put_phase(state, phase, direction, (int(opening > 0), 0))
-    elif case.model.has_compliance and touches and begins:
-        motion.put_phase(state, phase, direction, (int(rate == 0 and phase == SLIP), 1))
-    elif touches or phase == SLIP:
-        motion.put_phase(state, SLIP if rate else STICK, int(np.sign(rate)))
-        return True
-    else:
-        motion.put_phase(state, phase, direction)
-    return False
 
 
 # Local truncation error for a tolerance of 1, on rigid and on compliant contact. With it the errors
