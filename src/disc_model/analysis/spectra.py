@@ -22,10 +22,6 @@ fifth."""
 HIGHEST_HARMONIC = 12  # of the stick-slip frequency in combinations,
 HIGHEST_TURN = 3  # and of the drive's
 EQUALLY_NEAR = 3  # digits of Hz to which combinations are equally near
-_ORDERS = np.mgrid[: HIGHEST_HARMONIC + 1, -HIGHEST_TURN : HIGHEST_TURN + 1].reshape(2, -1)
-# without n = 0 and m <= 0, which are no frequency
-HARMONICS, TURNS = _ORDERS[:, HIGHEST_TURN + 1 :]
-"""Orders n and m of all combinations, shape (combinations,)."""
 
 
 class Line(NamedTuple):
@@ -41,7 +37,6 @@ class Combination(NamedTuple):
 
     n: int
     m: int
-    frequency: float
     deviation: float
 
     def __str__(self) -> str:
@@ -174,13 +169,12 @@ def identify(frequency: float, f_s: float, f_drive: float) -> Combination:
     Of combinations that are equally near, to a thousandth of a Hz, the one with the smallest orders
     is taken.
     """
-    frequencies = HARMONICS * f_s + TURNS * f_drive
-    deviations = frequency - frequencies
-    # the nearest first, and of those the one with the smallest orders
-    distances = np.round(np.abs(deviations), EQUALLY_NEAR)
-    first = np.lexsort((HARMONICS + np.abs(TURNS), distances))[0]
-    columns = (HARMONICS, TURNS, frequencies, deviations)
-    return Combination(*(column[first].item() for column in columns))
+    found = []
+    for n in range(HIGHEST_HARMONIC + 1):
+        for m in range(-HIGHEST_TURN, HIGHEST_TURN + 1):
+            if n > 0 or m > 0:  # the others are no frequency
+                found.append(Combination(n, m, float(frequency - (n * f_s + m * f_drive))))
+    return min(found, key=lambda x: (round(abs(x.deviation), EQUALLY_NEAR), x.n + abs(x.m)))
 
 
 def time_frequency(
