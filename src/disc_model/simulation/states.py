@@ -389,28 +389,32 @@ def write_state(
     phase = PHASES.index(source.phase)
     if phase == SLIP and case.model.has_compliance and rate == gap == 0 and not any(source._roots):
         phase = STICK  # no force, and so no friction that slip could overcome
-    direction = source.direction * (phase == SLIP)
+    motion.put_phase(state, phase, source.direction * (phase == SLIP), source._roots)
     at_event = any(source._roots) and source.case_key != (key or case.key)
-    if not at_event:
-        motion.put_phase(state, phase, direction, source._roots)
-        return False
+    return at_event and _forget_switch(case, source, state, gap, rate)
 
-    # an event function that vanishes in another case need not vanish here
+
+def _forget_switch(
+    case: EngineCase, source: State, state: EngineState, gap: float, rate: float
+) -> bool:
+    """Adapt a state at an event of another case: an event function that vanishes there need not
+    vanish here. Returns whether the engine must determine if contact lasts: a slider that rests on
+    the disc is put into contact."""
     sizes = SAME_HEIGHT * np.abs(case.point).dot(np.abs(state.disc))
     _, velocity, slope, _ = case.point.dot(state.disc)
+    phase = motion.phase_of(state)
     opening = source.u_velocity - velocity - rate * slope
     touches = abs(gap) <= sizes[0]
     rests = abs(opening) <= sizes[1] + abs(rate) * sizes[2]
+    known = (0, 0)
     if phase == SEPARATION and touches and not rests:
-        motion.put_phase(state, phase, direction, (int(opening > 0), 0))
+        known = (int(opening > 0), 0)
     elif case.model.has_compliance and touches and source._roots[1] > 0:
-        motion.put_phase(state, phase, direction, (int(rate == 0 and phase == SLIP), 1))
+        known = (int(rate == 0 and phase == SLIP), 1)
     elif touches or phase == SLIP:
-        # a slider that rests on the disc: does contact last?
         motion.put_phase(state, SLIP if rate else STICK, int(np.sign(rate)))
         return True
-    else:
-        motion.put_phase(state, phase, direction)
+    motion.put_phase(state, phase, motion.direction_of(state), known)
     return False
 
 
