@@ -243,12 +243,14 @@ class Result(Summarised, EqualByValue):
         time (s),kind,phase,psi (rad),f (rad s-1),u (m),u_velocity (m s-1),P (N)
         """
         from disc_model.data.coded import table_of
+        from disc_model.data.columns import series_dataset
 
         folder = Path(path)
         folder.mkdir(parents=True, exist_ok=True)
-        for name, group in self.to_tree().children.items():
-            table = table_of(group.to_dataset()).drop(columns="event", errors="ignore")
-            table.to_csv(folder / f"{name}.csv", index=False)
+        events = series_dataset(self._event_columns, "event")
+        table_of(events).drop(columns="event").to_csv(folder / "events.csv", index=False)
+        for name in self.samples:
+            table_of(self[name]).to_csv(folder / f"{name}.csv", index=False)
 
     @classmethod
     def load(cls, path: str | Path) -> Result:
@@ -296,9 +298,10 @@ class Result(Summarised, EqualByValue):
         yield "case", values_text(dict(self.parameters))
         yield "status", self.message or self.status.value
         yield "advice", self.status.advice * (not self.status.complete)
-        for name, value in self.scalars().items():
-            variable = SCALARS[name]
-            yield name.replace("_", " "), number_text(value, variable.units.strip("1"), 9)
+        yield "first separation", number_text(self.first_separation, "s", 9) or "none"
+        for name, value in self.statistics.items():
+            words = name.removeprefix("n_").replace("_", " ")
+            yield words, number_text(value, SCALARS[name].units.strip("1"), 9)
 
     def raise_for_status(self) -> Result:
         """Return self if the run is complete; otherwise raise its `SimulationError`."""
