@@ -37,6 +37,7 @@ class Combination(NamedTuple):
 
     n: int
     m: int
+    frequency: float
     deviation: float
 
     def __str__(self) -> str:
@@ -173,7 +174,8 @@ def identify(frequency: float, f_s: float, f_drive: float) -> Combination:
     for n in range(HIGHEST_HARMONIC + 1):
         for m in range(-HIGHEST_TURN, HIGHEST_TURN + 1):
             if n > 0 or m > 0:  # the others are no frequency
-                found.append(Combination(n, m, float(frequency - (n * f_s + m * f_drive))))
+                at = float(n * f_s + m * f_drive)
+                found.append(Combination(n, m, at, float(frequency) - at))
     return min(found, key=lambda x: (round(abs(x.deviation), EQUALLY_NEAR), x.n + abs(x.m)))
 
 
