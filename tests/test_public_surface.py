@@ -115,7 +115,6 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
         dict.fromkeys(("time", "psi", "u_velocity", "surface_turn"), "negative")
         | {"mode_amplitudes": "None", "case_key": [*WRONG], "drive_angle": "None negative"},
     ),
-    (RUN.final_state.slider_angle, {}, {}),
     (RUN.final_state.material_angle, {}, {}),
     (dm.snapshots, {"case": P, "times": 1e-4}, {"initial_state": "None", "times": "nothing"}),
     (dm.deflection, SHAPES, {"theta": "negative nothing", "states": "nothing"}),

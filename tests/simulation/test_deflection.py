@@ -51,7 +51,7 @@ def test_on_a_ramp_the_drive_has_turned_by_less_than_omega_times_the_time() -> N
     assert w == pytest.approx(run.samples["w"]["w_point"][-1], rel=1e-9)
     # 20 rad/s for 20 ms, 16 rad/s in the mean for 30 ms, 12 rad/s for 50 ms
     assert run.final_state.drive_angle == pytest.approx(1.48, rel=1e-14)
-    assert run.final_state.slider_angle(P) == pytest.approx(1.48 - run.final_state.psi)
+    assert run.final_state.material_angle(P) == pytest.approx(1.48 - run.final_state.psi)
     for state in snapshots(P, [0.01, 0.045, 0.1], ramps=RAMPS):
         i = round(1000 * state.time)
         there = deflection(P, state, P.r_0, 1.0).item()
@@ -73,7 +73,7 @@ def test_a_point_of_the_disc_does_not_jump_where_the_speed_of_the_drive_does(
     # a clock that is set anew says where the drive is
     turned = first.final_state.replace(time=0.0)
     assert turned.drive_angle is None
-    assert turned.slider_angle(P) == -turned.psi
+    assert turned.material_angle(P) == -turned.psi
     with refusal(r"drive_angle=nan: "):
         simulate(P, 0.1, initial_state=turned.replace(drive_angle=float("nan")))
 

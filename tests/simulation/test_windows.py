@@ -44,8 +44,7 @@ def test_a_window_has_the_samples_within_it(
     known = {"last": {"last": length + 1}, "stop": {"start": start, "stop": stop}}
     times = {name: time / 64 for name, time in known.get(until, {"start": start}).items()}
     window = Window(rate=16, envelope=envelope, **times)
-    late = start >= end if until == "end" else start > end
-    if (until == "last" and length + 1 > end - begin) or (until != "last" and late):
+    if (until == "last" and length + 1 > end - begin) or (until != "last" and start > end):
         with refusal(r"^windows\.w\.(start|last)=.*: must be <"):
             resolved_windows({"w": window}, begin / 64, end / 64)
         return
@@ -53,10 +52,7 @@ def test_a_window_has_the_samples_within_it(
     first = end - length - 1 if until == "last" else start
     last = stop if until == "stop" else end
     assert resolved.start == first / 64
-    assert resolved.stop <= last / 64
-    if envelope and until != "stop":
-        # without the instant of the end, and half an interval before it
-        last = max(end - 2, first)
+    assert resolved.stop == last / 64
     taken = [time for time in range(first, min(last, end) + 1, 4) if time >= begin]
     assert resolved.grid(P, begin / 64, end / 64).number == len(taken)
     assert resolved_windows({"w": resolved}, begin / 64, end / 64)["w"] == resolved
@@ -86,7 +82,7 @@ def test_a_section_has_one_sample_a_turn() -> None:
     np.testing.assert_allclose(turns["w_point"], same["w_point"], rtol=1e-9)
     assert not np.isclose(turns["w_point"], other["w_point"], rtol=1e-2).any()
     still = simulate(P.replace(Omega=0), 0.01, {"turns": Poincare()})
-    assert len(still.samples["turns"]["time"]) == 0
+    assert still.samples["turns"]["time"].tolist() == [0.0]
 
 
 def test_parts_of_a_run_may_share_windows() -> None:
@@ -113,7 +109,7 @@ def test_parts_of_a_run_may_share_windows() -> None:
         ({"w": Window(start=1.5, stop=2, rate=9)}, r"windows\.w\.start=1\.5: must be <= 1, where"),
         # it was cut to the run
         ({"w": Window(last=2, rate=9)}, r"windows\.w\.last=2: must be <= 1 s, the length of"),
-        ({"w": Window(rate=1e19)}, r"windows\.w: .*too many"),
+        ({"w": Window(rate=1e19)}, r"windows\.w=.*must have 1e\+09 samples at most"),
     ],
 )
 def test_windows_that_cannot_be_are_refused(windows: Any, fault: str) -> None:

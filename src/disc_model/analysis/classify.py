@@ -55,14 +55,9 @@ class Motion(NamedTuple):
         return str(self.kind).replace("_", "-")
 
 
-def motion_of(intervals: Array, tolerance: float = CLOSES) -> Motion:
-    """Classify a motion by the intervals between its releases, or between its separations.
-
-    Parameters
-    ----------
-    intervals : s, shape (n,)
-    tolerance : s, largest difference for a periodic motion: above the remaining transient, and far below the
-        differences of successive intervals
+def motion_of(intervals: Array) -> Motion:
+    """Classify a motion by the intervals between its releases, or between its separations, in s, shape
+    (n,).
 
     Raises
     ------
@@ -71,12 +66,15 @@ def motion_of(intervals: Array, tolerance: float = CLOSES) -> Motion:
     """
     if intervals.size < FEWEST:
         raise ValueError(f"{intervals.size} intervals: at least {FEWEST} are needed")
-    period = shortest_period(intervals, tolerance)
+    period = shortest_period(intervals)
     if period:
         return Motion(Outcome.OTHER_CYCLE, period, closure(intervals, period))
     chaos = zero_one(intervals)
-    kinds = (Outcome.QUASI_PERIODIC, Outcome.UNDECIDED, Outcome.IRREGULAR)
-    kind = kinds[(chaos >= REGULAR) + (chaos > 1 - REGULAR)]
+    kind = Outcome.UNDECIDED
+    if chaos < REGULAR:
+        kind = Outcome.QUASI_PERIODIC
+    elif chaos > 1 - REGULAR:
+        kind = Outcome.IRREGULAR
     return Motion(kind, 0, closure(intervals, 1), chaos)
 
 
@@ -166,17 +164,15 @@ def separation_location(height: Array, starts: Indices) -> float:
     return float(np.median(shares))
 
 
-def share(
-    hits: int, trials: int, unknown: int = 0, confidence: float = 0.95
-) -> tuple[float, float, float]:
-    """Share of hits among trials, and the ends of its Wilson interval. Further trials with an
+def share(hits: int, trials: int, unknown: int = 0) -> tuple[float, float, float]:
+    """Share of hits among trials, and the ends of its Wilson interval of 95 %. Further trials with an
     unknown result count as misses at the lower end and as hits at the upper."""
     from scipy.stats import binomtest
 
     if trials == 0:
         return np.nan, 0.0, 1.0
     low, high = (
-        binomtest(count, trials + unknown).proportion_ci(confidence, "wilson")
+        binomtest(count, trials + unknown).proportion_ci(method="wilson")
         for count in (hits, hits + unknown)
     )
     return hits / trials, float(low.low), float(high.high)

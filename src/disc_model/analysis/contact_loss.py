@@ -2,12 +2,14 @@
 exceeds it (docs/model.md, The range at which contact is lost)."""
 
 import math
+from typing import Annotated
 
-from disc_model.errors import require
-from disc_model.parameters import Parameters, require_case
+from disc_model.parameters import Parameters
+from disc_model.units import Positive, Unit, checked
 
 
-def pinned_range(case: Parameters, frequency: float) -> float:
+@checked
+def pinned_range(case: Parameters, frequency: Annotated[Positive, Unit("Hz")]) -> float:
     """Range of the slider's height at which vibration at one frequency loses contact, m.
 
     In contact the slider follows the disc, so that the vibration U cos(omega t) of its height needs
@@ -40,10 +42,6 @@ def pinned_range(case: Parameters, frequency: float) -> float:
     >>> f"{1e3 * dm.pinned_range(dm.Parameters(N=200, Omega=20), 135.42):.2f} mm"
     '17.86 mm'
     """
-    positive = isinstance(frequency, int | float) and 0 < frequency < math.inf
-    rule = "must be a number > 0, in Hz"
-    require_case(case)
-    require((positive, "frequency", frequency, rule))
     omega = 2 * math.pi * frequency
     stiffness = abs(complex(case.k - case.m * omega**2, case.c * omega))
     if stiffness == 0:

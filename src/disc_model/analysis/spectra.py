@@ -22,10 +22,6 @@ fifth."""
 HIGHEST_HARMONIC = 12  # of the stick-slip frequency in combinations,
 HIGHEST_TURN = 3  # and of the drive's
 EQUALLY_NEAR = 3  # digits of Hz to which combinations are equally near
-_ORDERS = np.mgrid[: HIGHEST_HARMONIC + 1, -HIGHEST_TURN : HIGHEST_TURN + 1].reshape(2, -1)
-# without n = 0 and m <= 0, which are no frequency
-HARMONICS, TURNS = _ORDERS[:, HIGHEST_TURN + 1 :]
-"""Orders n and m of all combinations, shape (combinations,)."""
 
 
 class Line(NamedTuple):
@@ -139,43 +135,32 @@ def lines(
     return [Line(*line) for line in np.stack([frequencies, heights], axis=1)[lasting].tolist()]
 
 
-class MainVibration(NamedTuple):
-    """The sine that fits a signal best: frequency in Hz, amplitude in the signal's unit, and the
-    share of the signal's variance that it explains."""
+def main_frequency(time: ArrayLike, values: ArrayLike) -> float:
+    """The frequency of the strongest line of a signal, Hz; raises ValueError if it has none."""
+    found = lines(time, values, floor=0.5)
+    if not found:
+        raise ValueError("the signal has no line")
+    return max(found, key=lambda line: line.amplitude).frequency
 
-    frequency: float
-    amplitude: float
-    share: float
 
-
-def main_vibration(time: ArrayLike, values: ArrayLike) -> MainVibration:
-    """Find the vibration at one frequency that explains most of a signal.
-
-    Its frequency is that of the strongest line, its amplitude and share are those of a least-squares
-    fit of one sine and a constant. Raises ValueError if the signal has no line.
+def share_at(time: ArrayLike, values: ArrayLike, frequency: float) -> float:
+    """The share of a signal's variance that the best sine at a frequency (Hz) explains, by a
+    least-squares fit of it and a constant.
 
     Examples
     --------
     >>> t = np.arange(4000) / 2000
-    >>> found = main_vibration(t, 3 * np.sin(2 * np.pi * 97.3 * t) + np.sin(2 * np.pi * 401 * t))
-    >>> round(found.frequency, 1), round(found.amplitude, 2), round(found.share, 2)
-    (97.3, 3.0, 0.9)
+    >>> x = 3 * np.sin(2 * np.pi * 97.3 * t) + np.sin(2 * np.pi * 401 * t)
+    >>> frequency = main_frequency(t, x)
+    >>> round(frequency, 1), round(share_at(t, x, frequency), 2)
+    (97.3, 0.9)
     """
-    found = lines(time, values, floor=0.5)
-    if not found:
-        raise ValueError("the signal has no line")
-    return vibration_at(time, values, max(found, key=lambda line: line.amplitude).frequency)
-
-
-def vibration_at(time: ArrayLike, values: ArrayLike, frequency: float) -> MainVibration:
-    """The sine at a frequency in Hz that fits a signal best."""
     seconds = np.asarray(time, dtype=float)
     angle = 2 * np.pi * frequency * (seconds - seconds[0])
     waves = np.column_stack([np.ones_like(angle), np.cos(angle), np.sin(angle)])
     signal = np.asarray(values, dtype=float)
     coefficients = np.linalg.lstsq(waves, signal, rcond=None)[0]
-    share = 1 - float(np.var(signal - waves @ coefficients) / np.var(signal))
-    return MainVibration(frequency, float(np.hypot(*coefficients[1:])), share)
+    return 1 - float(np.var(signal - waves @ coefficients) / np.var(signal))
 
 
 def identify(frequency: float, f_s: float, f_drive: float) -> Combination:
@@ -185,13 +170,13 @@ def identify(frequency: float, f_s: float, f_drive: float) -> Combination:
     Of combinations that are equally near, to a thousandth of a Hz, the one with the smallest orders
     is taken.
     """
-    frequencies = HARMONICS * f_s + TURNS * f_drive
-    deviations = frequency - frequencies
-    # the nearest first, and of those the one with the smallest orders
-    distances = np.round(np.abs(deviations), EQUALLY_NEAR)
-    first = np.lexsort((HARMONICS + np.abs(TURNS), distances))[0]
-    columns = (HARMONICS, TURNS, frequencies, deviations)
-    return Combination(*(column[first].item() for column in columns))
+    found = []
+    for n in range(HIGHEST_HARMONIC + 1):
+        for m in range(-HIGHEST_TURN, HIGHEST_TURN + 1):
+            if n > 0 or m > 0:  # the others are no frequency
+                at = float(n * f_s + m * f_drive)
+                found.append(Combination(n, m, at, float(frequency) - at))
+    return min(found, key=lambda x: (round(abs(x.deviation), EQUALLY_NEAR), x.n + abs(x.m)))
 
 
 def time_frequency(
@@ -241,14 +226,12 @@ class Resonance(NamedTuple):
     harmonic : n; half-integer for a period doubling
     frequency, diameters : f (Hz) and l, of a mode of disc and slider at rest
     sign : -1 or 1, of l Omega / 2 pi; 0 if the mode stands in the slider's frame
-    detuning : Hz, n f_s less the right side
     """
 
     harmonic: float
     frequency: float
     diameters: int
     sign: int
-    detuning: float
 
     @property
     def label(self) -> str:
@@ -270,19 +253,20 @@ def nearest_resonance(
     turn = p.Omega / (2 * math.pi)
     angle = cmath.phase(multiplier) / (2 * math.pi)
     half = 0.5 * (multiplier.imag == 0 and multiplier.real < 0)  # of a period doubling
-    found: dict[float, Resonance] = {}
+    found: list[tuple[float, Resonance]] = []
     for mode in modes_at_rest(p):
         if mode.diameters != diameters:
             continue
-        stands = mode.bound or not diameters
-        for sign in [0] * stands + [-1, 1] * (diameters > 0):
+        signs = [-1, 1] if diameters > 0 else []
+        if mode.bound:
+            signs.insert(0, 0)
+        for sign in signs:
             seen = (mode.frequency + sign * diameters * turn) / rate
             harmonic = round(seen - half) + half
-            detuning = float((harmonic - seen) * rate)
             # how far it is from the multiplier's angle, in turns
             miss = min(abs((seen - side * angle + 0.5) % 1 - 0.5) for side in (-1, 1))
-            found.setdefault(miss, Resonance(harmonic, mode.frequency, diameters, sign, detuning))
-    return found[min(found)]
+            found.append((miss, Resonance(harmonic, mode.frequency, diameters, sign)))
+    return min(found, key=lambda each: each[0])[1]
 
 
 class ModeAtRest(NamedTuple):
@@ -300,12 +284,9 @@ def modes_at_rest(p: Parameters) -> list[ModeAtRest]:
     modes = mode_arrays(p)
     omegas, shapes = coupled_shapes(p, contact_compliance(p))
     largest = np.abs(shapes[: len(modes.omega)]).argmax(axis=0)
-    found: list[ModeAtRest] = []
-    for moved, diameters, bound in (
-        (omegas, modes.diameters[largest], True),
-        (modes.omega, modes.diameters, False),
-    ):
-        of_kind = zip((moved / (2 * math.pi)).tolist(), diameters.tolist(), strict=True)
-        # free are those with a nodal diameter at the slider
-        found += [ModeAtRest(hertz, l, bound) for hertz, l in of_kind if bound or l > 0]
+    coupled = zip(omegas.tolist(), modes.diameters[largest].tolist(), strict=True)
+    own = zip(modes.omega.tolist(), modes.diameters.tolist(), strict=True)
+    found = [ModeAtRest(omega / math.tau, l, bound=True) for omega, l in coupled]
+    # free are those with a nodal diameter at the slider
+    found += [ModeAtRest(omega / math.tau, l, bound=False) for omega, l in own if l > 0]
     return sorted(found)

@@ -10,7 +10,7 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from pydantic import BeforeValidator, InstanceOf, PlainValidator, StrictBool, TypeAdapter
 
-from disc_model.errors import as_text, raise_faults, require
+from disc_model.errors import as_text, require
 from disc_model.parameters import Parameters
 from disc_model.simulation import states
 from disc_model.simulation.case import (
@@ -19,11 +19,11 @@ from disc_model.simulation.case import (
     Ramp,
     Window,
     WindowName,
-    ramp_faults,
+    check_ramps,
     resolved_windows,
 )
 from disc_model.simulation.result import Result
-from disc_model.simulation.run import Request, Run
+from disc_model.simulation.run import Run
 from disc_model.simulation.states import State
 from disc_model.units import Seconds, Tolerance, checked
 
@@ -102,20 +102,19 @@ def simulate(  # noqa: PLR0913
     require((start < end < math.inf, "t_end", t_end, rule))
 
     asked = windows or {}
+    rule = "must not be given with stop_at: where the run ends is not known before"
     for name, window in asked.items():
-        last = getattr(window, "last", None)
-        rule = "must not be given with stop_at: where the run ends is not known before"
-        require((last is None or stop_at is None, f"windows.{name}.last", last, rule))
+        known = window.last is None or stop_at is None
+        require((known, f"windows.{name}.last", window.last, rule))
     sampled = resolved_windows(asked, start, end)
-    sections = any(isinstance(window, Poincare) for window in sampled.values())
-    raise_faults([*ramp_faults(case, ramps, poincare=sections)])
+    check_ramps(case, ramps, sampled)
 
     loosest = states.loosest_tolerance(case)
     if tol > loosest:
         used = f"tol={tol:g}: the series need {loosest:g} at most, which is used"
         warnings.warn(used, stacklevel=4)
-    request = Request(
-        case=case,
+    run = Run(
+        parameters=case,
         t_end=end,
         windows=sampled,
         events=events,
@@ -125,7 +124,7 @@ def simulate(  # noqa: PLR0913
         ramps=ramps,
         execution=execution,
     )
-    return Run(request, start).complete()
+    return run.complete()
 
 
 @checked

@@ -5,11 +5,10 @@ from __future__ import annotations
 import json
 import math
 import sys
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from itertools import pairwise
 from typing import Annotated, Any, Literal, NamedTuple, Self
 
-import numpy as np
 from pydantic import (
     AfterValidator,
     BeforeValidator,
@@ -21,7 +20,7 @@ from pydantic import (
 )
 
 from disc_model.data.variables import BESIDE_WINDOWS, TAKEN
-from disc_model.errors import Fault, as_text, raise_faults, require
+from disc_model.errors import as_text, require
 from disc_model.parameters import Parameters
 from disc_model.provenance import content_key
 from disc_model.units import Count, Finite, Positive, Real, Seconds, Strict, Tolerance, Unit, must
@@ -42,32 +41,7 @@ class SampleTimes(NamedTuple):
     end: float  # s, of the run
 
 
-def _sample_times(
-    origin: float, interval: float, span: tuple[float, float], theta: float, t_end: float
-) -> SampleTimes:
-    """Samples an interval apart, of which one may be at the origin, in a span of time (s)."""
-    interval = min(interval, sys.float_info.max)
-    begin, end = ((time - origin) / interval for time in span)
-    first = math.ceil(begin - ROUNDING)
-    # the last one may be rounded to behind the end; as many samples are refused by what holds them
-    last = math.floor(min(end * (1 + 1e-15) + ROUNDING, 2.0**62))
-    return SampleTimes(origin + first * interval, interval, max(0, last - first + 1), theta, t_end)
-
-
-class Interval(Strict):
-    """An interval of time, from a `start` to a later `stop` or `end`."""
-
-    @model_validator(mode="after")
-    def _ordered(self) -> Self:
-        values = dict(self)
-        start = values["start"]
-        [name] = {"end", "stop"} & values.keys()
-        rule = f"must be < {name}={as_text(values[name])}"
-        require((start < values[name], "start", start, rule))
-        return self
-
-
-class Span(Interval):
+class Span(Strict):
     """A stretch of time: from `start` to `stop`, over the `last` seconds of the run, or over all of
     it."""
 
@@ -76,32 +50,49 @@ class Span(Interval):
     last: Seconds | None = None
 
     @model_validator(mode="after")
-    def _either(self) -> Self:
+    def _possible(self) -> Self:
         alone = self.last is None or (self.start == 0 and self.stop == math.inf)
-        require((alone, "last", self.last, "must not be given beside start or stop"))
+        require(
+            (self.start <= self.stop, "start", self.start, f"must be <= stop={as_text(self.stop)}"),
+            (alone, "last", self.last, "must not be given beside start or stop"),
+        )
         return self
-
-    def resolved(self, start: float, t_end: float) -> Self:
-        """The same span with absolute times, for a run from ``start`` to ``t_end``. Raises
-        `ParameterError` if it has no stop time and begins at the end of the run or later."""
-        first, stop = self.ends(start, t_end)
-        return self.replace(start=first, stop=stop, last=None)
 
     def ends(self, start: float, t_end: float) -> tuple[float, float]:
         """Absolute times of its ends, s, for a run from ``start`` to ``t_end``, even if they are
         not within the run."""
-        first = self.start
         if self.last is not None:
-            first = max(t_end - self.last, start)
-        if self.stop < math.inf:
-            return first, self.stop
-        return first, self._end(first, t_end)
-
-    def _end(self, first: float, t_end: float) -> float:
-        return t_end
+            return max(t_end - self.last, start), t_end
+        if self.stop == math.inf:
+            return self.start, t_end
+        return self.start, self.stop
 
 
-class Window(Span):
+class Sampled(Span):
+    """Samples an interval apart in a stretch of time, of the disc point at `theta` (rad), fixed to the
+    disc."""
+
+    theta: Angle = 1.0
+
+    def clock(self, p: Parameters) -> tuple[float, float]:
+        """A time at which there is a sample if it is in the stretch, and the interval, s."""
+        raise NotImplementedError
+
+    def grid(self, p: Parameters, start: float, t_end: float) -> SampleTimes:
+        """When samples are taken in a run of the case from ``start`` to ``t_end``, s, before they are
+        combined to an envelope; for absolute times of the ends."""
+        origin, interval = self.clock(p)
+        interval = min(interval, sys.float_info.max)
+        begin = (max(self.start, start) - origin) / interval
+        end = (min(self.stop, t_end) - origin) / interval
+        first = math.ceil(begin - ROUNDING)
+        # the last one may be rounded to behind the end; as many samples are refused by what holds them
+        last = math.floor(min(end * (1 + 1e-15) + ROUNDING, 2.0**62))
+        number = max(0, last - first + 1)
+        return SampleTimes(origin + first * interval, interval, number, self.theta, t_end)
+
+
+class Window(Sampled):
     """Samples at a fixed rate: from `start` to `stop`, over the `last` seconds of the run, or over
     all of it.
 
@@ -129,33 +120,20 @@ class Window(Span):
     """
 
     rate: Annotated[Positive, Unit("Hz")]
-    theta: Angle = 1.0
     envelope: Annotated[Count, Field(ge=2, le=2**53)] | None = None
-
-    def _end(self, first: float, t_end: float) -> float:
-        """End of the span; an envelope up to ``t_end`` excludes that instant, which would be a bin
-        of its own."""
-        if self.envelope is None:
-            return t_end
-        return min(max(t_end - 0.5 / self.rate, first + 0.25 / self.rate), t_end)
 
     @property
     def count(self) -> int:
-        """Number of samples, before they are combined to an envelope."""
-        return self._times((self.start, self.stop), self.stop).number
+        """Number of samples from `start` to `stop`, before they are combined to an envelope."""
+        return math.floor((self.stop - self.start) * self.rate + ROUNDING) + 1
 
-    def grid(self, p: Parameters, start: float, t_end: float) -> SampleTimes:
-        """When samples are taken in a run of the case from ``start`` to ``t_end``, s, before they are
-        combined to an envelope."""
-        return self._times((max(self.start, start), min(self.stop, t_end)), t_end)
-
-    def _times(self, span: tuple[float, float], end: float) -> SampleTimes:
-        return _sample_times(self.start, 1 / self.rate, span, self.theta, end)
+    def clock(self, p: Parameters) -> tuple[float, float]:
+        return self.start, 1 / self.rate
 
 
-class Poincare(Interval):
-    """One sample per turn of the drive, at t = i 2 pi/Omega, from `start` to `stop`, of the disc
-    point at `theta`.
+class Poincare(Sampled):
+    """One sample per turn of the drive, at t = i 2 pi/Omega, with `start`, `stop`, `last` and `theta` as
+    of a `Window`.
 
     Examples
     --------
@@ -165,43 +143,39 @@ class Poincare(Interval):
     array([0.    , 0.4161, 0.8322])
     """
 
-    start: Time = 0.0
-    stop: Stop = math.inf
-    theta: Angle = 1.0
-
-    def grid(self, p: Parameters, start: float, t_end: float) -> SampleTimes:
-        """When samples are taken, as of a `Window`; never if the drive rests."""
-        if p.Omega == 0:
-            return SampleTimes(0.0, 1.0, 0, self.theta, t_end)
-        span = (max(self.start, start), min(self.stop, t_end))
-        return _sample_times(0.0, math.tau / p.Omega, span, self.theta, t_end)
+    def clock(self, p: Parameters) -> tuple[float, float]:
+        turn = math.inf
+        if p.Omega > 0:
+            turn = math.tau / p.Omega
+        return 0.0, turn
 
 
 Windows = Mapping[str, Window | Poincare]  # samples to keep, by their names
 
 
 def resolved_windows(windows: Windows, start: float, t_end: float) -> Windows:
-    """Windows by name with absolute times, for a run from ``start`` to ``t_end``, by
-    `Span.resolved`. One may end before the run starts, as parts of a run may share windows, but not
-    begin after its end. Raises `ParameterError`."""
+    """Windows by name with absolute times, for a run from ``start`` to ``t_end``. One may end before
+    the run starts, as parts of a run may share windows, but not begin after its end. Raises
+    `ParameterError`."""
     resolved: dict[str, Window | Poincare] = {}
     for name, window in windows.items():
         path = f"windows.{name}"
-        length = getattr(window, "last", None) or 0.0
-        begins = window.start <= t_end and (window.start, window.stop) != (t_end, math.inf)
+        length = window.last or 0.0
         require(
-            (begins, f"{path}.start", window.start, f"must be <= {as_text(t_end)}, where the run ends"),
+            (window.start <= t_end, f"{path}.start", window.start,
+             f"must be <= {as_text(t_end)}, where the run ends"),
             (t_end - length >= start - ROUNDING * t_end, f"{path}.last", length,
              f"must be <= {as_text(t_end - start)} s, the length of the run"),
         )  # fmt: skip
-        resolved[name] = window.resolved(start, t_end) if isinstance(window, Window) else window
+        first, stop = window.ends(start, t_end)
+        resolved[name] = window.replace(start=first, stop=stop, last=None)
     return resolved
 
 
 # ---- Slow ramps of the drive speed or of the preload, and the values of Omega and N at any time
 
 
-class Ramp(Interval):
+class Ramp(Strict):
     """A slow change of the drive speed or the preload: linear from `start` to `end`, and constant
     afterwards.
 
@@ -235,8 +209,11 @@ class Ramp(Interval):
     end: Seconds
 
     @model_validator(mode="after")
-    def _loaded(self) -> Self:
-        require((self.parameter != "N" or self.to > 0, "to", self.to, "must be > 0 for N"))
+    def _possible(self) -> Self:
+        require(
+            (self.parameter != "N" or self.to > 0, "to", self.to, "must be > 0 for N"),
+            (self.start < self.end, "start", self.start, f"must be < end={as_text(self.end)}"),
+        )
         return self
 
 
@@ -254,54 +231,52 @@ class Piece(NamedTuple):
 
     def angle_at(self, time: float) -> float:
         """Angle by which the drive point has turned at a time of the interval, rad."""
-        if self.begin == -math.inf:
-            return self.Omega * time
-        since = time - self.begin
+        since = time - max(self.begin, 0.0)  # before any ramp, since the time 0
         return self.angle + (self.Omega + 0.5 * self.Omega_rate * since) * since
 
+    def from_time(self, time: float) -> Piece:
+        """The later part of the interval, from a time on."""
+        since = time - max(self.begin, 0.0)
+        Omega = self.Omega + self.Omega_rate * since
+        N = self.N + self.N_rate * since
+        return self._replace(begin=time, angle=self.angle_at(time), Omega=Omega, N=N)
 
-def ramp_faults(p: Parameters, ramps: Sequence[Ramp], poincare: bool) -> Iterator[Fault]:
-    """Faults of the ramps of a case; ``poincare``: whether samples at the drive's period are
-    requested."""
-    if ramps and not p.N > 0:
-        yield Fault.of(("N",), p.N, "must be > 0 where there are ramps")
+
+def check_ramps(p: Parameters, ramps: Sequence[Ramp], windows: Windows) -> None:
+    """Raise `ParameterError` if a case cannot have these ramps, or such windows with them."""
+    require((not ramps or p.N > 0, "N", p.N, "must be > 0 where there are ramps"))
     order = sorted(enumerate(ramps), key=lambda pair: (pair[1].parameter, pair[1].start))
     for (_, before), (i, ramp) in pairwise(order):
-        if before.parameter == ramp.parameter and ramp.start < before.end:
-            rule = f"must be >= {as_text(before.end)}, where the ramp of {ramp.parameter} before it ends"
-            yield Fault.of(("ramps", str(i), "start"), ramp.start, rule)
-    if poincare and any(ramp.parameter == "Omega" for ramp in ramps):
-        rule = "must not be asked for on ramps of Omega: the drive has no period there"
-        yield Fault(("record", "poincare"), "", rule)
+        apart = before.parameter != ramp.parameter or ramp.start >= before.end
+        rule = (
+            f"must be >= {as_text(before.end)}, where the ramp of {ramp.parameter} before it ends"
+        )
+        require((apart, f"ramps.{i}.start", ramp.start, rule))
+    if any(ramp.parameter == "Omega" for ramp in ramps):
+        rule = "must be no Poincare on ramps of Omega: the drive has no period there"
+        for name, window in windows.items():
+            require((not isinstance(window, Poincare), f"windows.{name}", window, rule))
 
 
 def pieces(p: Parameters, ramps: Sequence[Ramp]) -> tuple[Piece, ...]:
     """The intervals of constant rates, in order, the first before any ramp; ramps to the present
     value do not count."""
-    if not ramps:  # as nearly always, and at once
-        return (Piece(-math.inf, math.inf, 0.0, p.Omega, 0.0, p.N, 0.0),)
-    knots: set[float] = set()
-    courses = []
+    knots = []  # time, parameter, its value there and its rate from there on
     for name in ("Omega", "N"):
-        times: list[float] = []
-        values = [getattr(p, name)]
+        value = getattr(p, name)
         for ramp in sorted(ramps, key=lambda ramp: ramp.start):
-            if ramp.parameter == name and ramp.to != values[-1]:
-                times += [ramp.start, ramp.end]
-                values += [values[-1], ramp.to]
-        knots.update(times)
-        courses.append((times, values[1:]) if times else ([0.0], values))
-    edges = np.array([-math.inf, *sorted(knots), math.inf])
-    columns = [edges[:-1], edges[1:]]
-    for course in courses:
-        at_edges = np.interp(edges, *course)
-        columns += [at_edges[:-1], np.diff(at_edges) / np.diff(edges)]
+            if ramp.parameter == name and ramp.to != value:
+                rate = (ramp.to - value) / (ramp.end - ramp.start)
+                knots += [(ramp.start, name, value, rate), (ramp.end, name, ramp.to, 0.0)]
+                value = ramp.to
+    now = Piece(-math.inf, math.inf, 0.0, p.Omega, 0.0, p.N, 0.0)
     parts: list[Piece] = []
-    angle = 0.0
-    for begin, end, *rest in np.transpose(columns).tolist():
-        parts.append(Piece(begin, end, angle, *rest))
-        angle = parts[-1].angle_at(end)
-    return tuple(parts)
+    for time, name, value, rate in sorted(knots, key=lambda knot: knot[0]):
+        if time > now.begin:
+            parts.append(now._replace(end=time))
+            now = now.from_time(time)
+        now = now._replace(**{name: value, f"{name}_rate": rate})
+    return (*parts, now)
 
 
 def angle_of_drive(intervals: Sequence[Piece], time: float) -> float:
@@ -402,9 +377,7 @@ class CaseSpec(Strict):
     @model_validator(mode="after")
     def _consistent(self) -> Self:
         """Check the rules between the values of the case."""
-        poincare = self.record.poincare is not None
-        raise_faults([*ramp_faults(self.parameters, self.ramps, poincare)])
-        self.longest_sections  # noqa: B018
+        check_ramps(self.parameters, self.ramps, self.longest_sections)
         return self
 
     @property

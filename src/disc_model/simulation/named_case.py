@@ -26,13 +26,13 @@ def run_case(spec: CaseSpec) -> xr.DataTree:
     from disc_model.data.columns import scalars_dataset
 
     p = spec.parameters
-    span = Span() if spec.record.events is True else spec.record.events
+    kept = spec.record.events
     try:
         result = simulate(
             p,
             spec.t_end,
             spec.record.sections,
-            events=bool(span),
+            events=bool(kept),
             tol=spec.tol,
             initial_state=make_initial_state(p, spec.start, spec.tol),
             stop_at=spec.stop_at,
@@ -45,12 +45,13 @@ def run_case(spec: CaseSpec) -> xr.DataTree:
     else:
         log.info("%s", result)
         tree = result.to_tree()
-        if span:
-            kept = span.ends(0.0, result.final_state.time)
+        if kept:
+            span = Span() if kept is True else kept
+            begin, end = span.ends(0.0, result.final_state.time)
             events = tree["events"].to_dataset()
-            within = slice(*events["time"].values.searchsorted(kept))
-            ends = {"kept_from": kept[0], "kept_until": kept[1]}
-            tree["events"].dataset = events.isel(event=within).assign_attrs(ends)
+            within = slice(*events["time"].values.searchsorted([begin, end]))
+            events = events.isel(event=within)
+            tree["events"].dataset = events.assign_attrs(kept_from=begin, kept_until=end)
     if spec.start != Start():
         tree.attrs["start"] = json.dumps(spec.start.model_dump(), sort_keys=True)
     tree.attrs |= {

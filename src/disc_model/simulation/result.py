@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from pydantic import ConfigDict, TypeAdapter
 
 from disc_model import errors
 from disc_model.arrays import Array, EqualByValue
@@ -25,7 +26,6 @@ from disc_model.parameters import Parameters
 from disc_model.provenance import versions_text
 from disc_model.simulation.case import Poincare, Ramp, Window, Windows
 from disc_model.simulation.states import State
-from disc_model.units import Finite, Real, Strict
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -47,7 +47,8 @@ SAMPLE_ROW = record.SAMPLE_ROW[1:]
 FOLDED = ("P", "u", "w", "w_point", "psi", "psi_velocity")
 BIN_ROW = ("time", *(f"{name}_{end}" for name in FOLDED for end in ("min", "max")))
 """Columns of a window with an envelope."""
-STATES = ("final_state", "initial_state")
+ARRAYS = frozenset({"event_rows", "samples"})
+"""Fields of a result that its file holds as variables."""
 CYCLES = 4  # of stick and slip that pictures show of the end of a run
 SHORTEST = 0.1  # s, of the end of a run that is shown where nothing repeats within a second
 BINS = 600  # of the envelope of a run
@@ -78,7 +79,7 @@ class Result(Summarised, EqualByValue):
     samples : by window, its arrays by name; ``result["late"]`` is a Dataset of those of the window "late"
     statistics : steps, n_events, n_separations, time_stick, time_slip, time_separation (s); of the audit of energies
         energy_residual, audited_steps and, nan unless every step is audited, energy_residual_transverse and
-        energy_residual_inplane; surface_speed, nan unless friction acts on a surface that moves; wall_time (s)
+        energy_residual_inplane; surface_speed, nan unless friction acts on a surface that moves
     versions : JSON of the versions of disc_model and of what it uses, by which the motion was computed
 
     Examples
@@ -90,6 +91,10 @@ class Result(Summarised, EqualByValue):
     >>> print(run.events["kind"].iloc[0], round(run.events["time"].iloc[0], 6))
     stick_to_slip 0.005099
     """
+
+    __pydantic_config__ = ConfigDict(
+        extra="forbid", ser_json_inf_nan="strings", arbitrary_types_allowed=True
+    )
 
     parameters: Parameters
     t_end: float
@@ -105,12 +110,7 @@ class Result(Summarised, EqualByValue):
     samples: Mapping[str, dict[str, Array]] = field(default_factory=dict)
     ramps: tuple[Ramp, ...] = ()
     initial_state: State | None = field(default=None, repr=False)
-    versions: str = field(default_factory=versions_text, repr=False)
-
-    def _compared(self) -> dict[str, Any]:
-        """All but the wall time, which files do not hold, and what computed the motion."""
-        motion = {name: x for name, x in self.statistics.items() if name != "wall_time"}
-        return super()._compared() | {"statistics": motion, "versions": ""}
+    versions: str = field(default_factory=versions_text, repr=False, compare=False)
 
     @property
     def _event_columns(self) -> dict[str, Array]:
@@ -125,12 +125,10 @@ class Result(Summarised, EqualByValue):
         simulation; `attrs` has the units of its columns."""
         import pandas as pd
 
-        columns: dict[str, Any] = self._event_columns
+        table = pd.DataFrame(self._event_columns)
         for name, words in (("kind", EVENT_KINDS), ("phase", PHASES)):
-            codes = columns[name].astype(np.int64)
-            columns[name] = pd.Categorical.from_codes(codes, pd.Index([*words]))
-        table = pd.DataFrame(columns)
-        units = {name: attributes(name).get("units", "1") for name in columns}
+            table[name] = pd.Categorical.from_codes(table[name].astype(int), pd.Index(words))
+        units = {name: attributes(str(name)).get("units", "1") for name in table}
         table.attrs["units"] = {name: unit for name, unit in units.items() if unit != "1"}
         return table
 
@@ -216,14 +214,9 @@ class Result(Summarised, EqualByValue):
         """
         from disc_model.data.dataset import save
 
-        described: dict[str, Any] = {name: getattr(self, name) for name in Header.model_fields}
-        described["statistics"] = self._compared()["statistics"]
-        for which in STATES:
-            if described[which] is not None:
-                values = vars(described[which]).items()
-                described[which] = {name: np.asarray(x).tolist() for name, x in values}
         tree = self.to_tree()
-        tree.attrs["result"] = Header(**described).model_dump_json()
+        header = TypeAdapter(Result).dump_json(self, exclude=set(ARRAYS))
+        tree.attrs["result"] = header.decode()
         directions = self.event_rows[:, EVENT_ROW.index("direction")]
         tree["events"].dataset = tree["events"].to_dataset().assign(direction=("event", directions))
         save(tree, regular_file(path, ".nc"))
@@ -261,8 +254,7 @@ class Result(Summarised, EqualByValue):
 
     @classmethod
     def load(cls, path: str | Path) -> Result:
-        """Return what `save` has written to a file, to the last bit, but for the `wall_time`, which
-        is nan. It equals the result that was saved.
+        """Return what `save` has written to a file, to the last bit. It equals the result that was saved.
 
         Raises
         ------
@@ -279,21 +271,14 @@ class Result(Summarised, EqualByValue):
         rule = "must be a file written by Result.save"
         require(("result" in tree.attrs, "path", str(path), rule))
         try:
-            fields = dict(Header.model_validate_json(tree.attrs["result"]))
-            for which in STATES:
-                if fields[which] is not None:
-                    fields[which] = _state_of(fields[which])
+            header = json.loads(tree.attrs["result"])
             samples = {}
-            for name in fields["windows"]:
+            for name in header["windows"]:
                 columns = tree[name].to_dataset().variables.items()
-                samples[name] = {str(key): x.values.astype(float) for key, x in columns}
-            return cls(
-                **fields | {"statistics": {**fields["statistics"], "wall_time": math.nan}},
-                event_rows=np.stack(
-                    [tree["events"][name] for name in EVENT_ROW], axis=1, dtype=float
-                ),
-                samples=samples,
-            )
+                samples[name] = {key: x.values.astype(float) for key, x in columns}
+            rows = np.stack([tree["events"][name] for name in EVENT_ROW], axis=1, dtype=float)
+            fields = {**header, "event_rows": rows, "samples": samples}
+            return TypeAdapter(cls).validate_python(fields)
         except (LookupError, TypeError, ValueError) as error:
             raise unreadable(path, error) from None
 
@@ -305,20 +290,18 @@ class Result(Summarised, EqualByValue):
             lost = f"first separation at {first:.6f} s"
         windows = counted(len(self.samples), "window")
         ended = f"{self.status.value} at {self.final_state.time:.9g} s"
-        events = self.statistics["n_events"]
+        events = int(self.statistics["n_events"])
         ramped = "".join(f", {ramp.parameter} to {ramp.to:g}" for ramp in self.ramps)
         return f"Result(N={p.N:g} N, Omega={p.Omega:g} rad/s{ramped}: {ended}, {lost}, {events} events, {windows})"
 
     def _summary(self) -> Iterator[tuple[str, object]]:
-        s = self.statistics
         yield "case", values_text(dict(self.parameters))
         yield "status", self.message or self.status.value
         yield "advice", self.status.advice * (not self.status.complete)
         yield "first separation", number_text(self.first_separation, "s", 9) or "none"
-        for phase in PHASES:
-            yield f"time in {phase}", f"{s[f'time_{phase}']:.6g} s"
-        for name in ("n_events", "steps", "energy_residual"):
-            yield name.replace("n_", "").replace("_", " "), f"{s[name]:.7g}"
+        for name, value in self.statistics.items():
+            words = name.removeprefix("n_").replace("_", " ")
+            yield words, number_text(value, SCALARS[name].units.strip("1"), 9)
 
     def raise_for_status(self) -> Result:
         """Return self if the run is complete; otherwise raise its `SimulationError`."""
@@ -503,12 +486,16 @@ class Result(Summarised, EqualByValue):
         case, name = self._shown(window, "end")
         time = pictures.window_of(case, name)["time"]
         times = np.linspace(float(time[0]), float(time[-1]), frames)
-        same: Any = {name: getattr(self, name) for name in ("tol", "ramps", "initial_state")}
-        states = snapshots(self.parameters, times, **same)
+        states = snapshots(self.parameters, times, **self._same_motion)
         made = pictures.film(self.parameters, states, case, name)
         if path is not None:
             made.save(path, writer=WRITERS[file.suffix], fps=fps, dpi=100)
         return made
+
+    @property
+    def _same_motion(self) -> dict[str, Any]:
+        """Options with which the motion is computed once more."""
+        return {name: getattr(self, name) for name in ("tol", "ramps", "initial_state")}
 
     def _shown(self, window: str | None, otherwise: str) -> tuple[xr.DataTree, str]:
         """Windows of the run, and the name of the one to show: a recorded one if it is named, and
@@ -517,19 +504,13 @@ class Result(Summarised, EqualByValue):
             return self._again(otherwise), otherwise
         return self.to_tree(), window
 
-    @property
-    def _span(self) -> float:
-        """The duration of the run, s."""
-        return float(self.final_state.time - getattr(self.initial_state, "time", 0.0))
-
-    @property
-    def _last_cycles(self) -> float:
-        """The length of the last cycles of the run, s: from a release of stick on."""
+    def _last_cycles(self, span: float) -> float:
+        """The length of the last cycles of a run of a length, s: from a release of stick on."""
         releases = self.event_rows[self.event_rows[:, 1] == record.STICK_TO_SLIP, 0]
         lengths = self.final_state.time - releases[-1 - CYCLES :]
         if len(lengths) <= CYCLES or lengths[0] >= 1.0:
-            return min(SHORTEST, self._span)
-        return min(float(lengths[0]), self._span)
+            return min(SHORTEST, span)
+        return min(float(lengths[0]), span)
 
     def _again(self, *names: str) -> xr.DataTree:
         """Simulate the run once more, and return it with windows that pictures show: "run" (an envelope of
@@ -538,40 +519,17 @@ class Result(Summarised, EqualByValue):
         from disc_model.simulation.api import simulate
 
         end = float(self.final_state.time)
-        rate = max(RATE, BINS / self._span)
-        cycles = self._last_cycles
+        span = end
+        if self.initial_state is not None:
+            span -= self.initial_state.time
+        rate = max(RATE, BINS / span)
+        cycles = self._last_cycles(span)
         highest = float(mode_arrays(self.parameters).omega.max(initial=0.0)) / math.tau
-        bins = max(2, math.ceil(rate * self._span / BINS))
         windows: Windows = {
-            "run": Window(start=end - self._span, rate=rate, envelope=bins),
-            "end": Window(start=end - cycles, rate=FINE / cycles),
-            "late": Window(last=min(8.0, self._span / 2), rate=max(RATE, PER_PERIOD * highest)),
+            "run": Window(last=span, rate=rate, envelope=max(2, math.ceil(rate * span / BINS))),
+            "end": Window(last=cycles, rate=FINE / cycles),
+            "late": Window(last=min(8.0, span / 2), rate=max(RATE, PER_PERIOD * highest)),
             "poincare": Poincare(),
         }
         asked = {name: windows[name] for name in names}
-        same: Any = {name: getattr(self, name) for name in ("tol", "ramps", "initial_state")}
-        return simulate(self.parameters, end, asked, **same).to_tree()
-
-
-def _state_of(stored: Mapping[str, Any]) -> State:
-    """A state from what a file holds of it."""
-    arrays = {name: np.array(x, float) for name, x in stored.items() if isinstance(x, list)}
-    return State(**{**stored, **arrays, "_roots": tuple(stored["_roots"])})
-
-
-class Header(Strict):
-    """What a file holds of a `Result` beside its arrays, checked."""
-
-    parameters: Parameters
-    windows: dict[str, Window | Poincare]
-    ramps: tuple[Ramp, ...]
-    statistics: dict[str, int | float]
-    final_state: dict[str, Any]
-    initial_state: dict[str, Any] | None
-    t_end: Finite
-    tol: Finite
-    status: Status
-    message: str
-    first_separation: Real
-    u_0: Real
-    versions: str
+        return simulate(self.parameters, end, asked, **self._same_motion).to_tree()

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import time as clock
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
@@ -18,7 +17,7 @@ from disc_model.engine.jit import compiled_for
 from disc_model.engine.jit.cache import compiling
 from disc_model.engine.model import blocks_of, flags_of, on_ramp, slope_under_slider
 from disc_model.engine.stick_modes import LONGEST_STICK
-from disc_model.errors import Fault, ParameterError, Status
+from disc_model.errors import Status, require
 from disc_model.parameters import Parameters
 from disc_model.provenance import content_key
 from disc_model.simulation import states
@@ -27,6 +26,7 @@ from disc_model.simulation.result import BIN_ROW, FOLDED, SAMPLE_ROW, Result
 from disc_model.simulation.states import State
 
 MOST_STEPS = 2**62  # largest number of steps that the engine can count
+MOST_SAMPLES = 10**9  # of a window: far more than memory holds
 # steps between two pauses of the engine where a step is cheapest: about 0.1 s of work
 STEPS_PER_PAUSE = 100_000
 # rows of samples between two pauses: large enough for cheap draining, small enough for the cache
@@ -54,11 +54,12 @@ BALANCES = {
 _ENGINES: dict[tuple[Any, ...], Callable[..., int]] = {}
 
 
-@dataclass(frozen=True)
-class Request:
-    """What a run is asked for, as `disc_model.simulate` has checked it, with absolute times."""
+@dataclass
+class Run:
+    """One run: what it is asked for, as `disc_model.simulate` has checked it, with absolute times; the
+    engine's arrays, and the buffers that collect rows."""
 
-    case: Parameters
+    parameters: Parameters
     t_end: float
     windows: Windows
     events: bool
@@ -68,61 +69,50 @@ class Request:
     ramps: tuple[Ramp, ...]
     execution: Execution
 
-
-class Run:
-    """One run: its request, with absolute times, the engine's arrays, and the buffers that collect rows."""
-
-    def __init__(self, request: Request, start: float) -> None:
-        self.request = request
-        self.t_end = request.t_end
-        self.case = states.engine_case(request.case)
+    def __post_init__(self) -> None:
+        self.case = states.engine_case(self.parameters)
         self.key = self.case.key
-        if request.ramps:
-            self.key = content_key(self.case.key + repr(request.ramps))
-        self.pieces = pieces(request.case, request.ramps)
-        self.wall_time = 0.0
+        if self.ramps:
+            self.key = content_key(self.case.key + repr(self.ramps))
+        self.pieces = pieces(self.parameters, self.ramps)
+        self.first_separation = math.nan  # s
+        self.event_rows: list[Array] = []
 
         # the engine's arrays, at the initial state
-        initial = request.initial_state
-        order = states.series_order(request.tol)
-        self.state, self.probe, self.series = states.take_workspace(self.case, order)
+        self.order = states.series_order(self.tol)
+        self.state, self.probe, self.series = states.take_workspace(self.case, self.order)
+        initial = self.initial_state
         at_switch = initial is not None and states.write_state(
             self.case, initial, self.state, self.key, is_start=True
         )
 
         # of the drive over its angle by this run's Omega and ramps alone, after another history
+        start = self.time
         self.lead = 0.0
         if initial is not None and initial.drive_angle is not None:
             self.lead = float(initial.drive_angle) - angle_of_drive(self.pieces, start)
-        self.limits = self._first_limits(order, start)
-        self.first_separation = math.nan  # s
-        self.events: list[Array] = []
+        self.limits = self._first_limits(start)
         self.samples: dict[str, Samples] = {}
         self.buffers = self._new_buffers(start)
 
-        # in reverse order, so that the first piece is current at the end; compiling here keeps it
-        # out of the wall time
-        for index, piece in reversed(tuple(enumerate(self.pieces))):
-            if start < piece.end and piece.begin < self.t_end:
-                self._enter(index)
+        self._enter(next(i for i, piece in enumerate(self.pieces) if start < piece.end))
         if at_switch:
             self._begin_at_switch()
 
     def _new_buffers(self, start: float) -> record.RunBuffers:
-        """Return the buffers of the engine for the windows of the request."""
+        """Return the buffers of the engine for the windows."""
         # the engine pauses between steps only, so one step's samples must fit above ``capacity``
         longest = LONGEST_STICK * self.case.model.unit + record.SAME_INSTANT * self.t_end
         per_step = 0
         grids = []
-        for name, window in self.request.windows.items():
-            grid = window.grid(self.request.case, start, self.t_end)
+        for name, window in self.windows.items():
+            grid = window.grid(self.parameters, start, self.t_end)
             # the engine knows the angle without the lead
             grids.append(grid._replace(theta=grid.theta - self.lead))
             per_step += 1 + math.ceil(min(longest / grid.interval, grid.number))
-            try:
-                self.samples[name] = Samples(grid.number, getattr(window, "envelope", None) or 1)
-            except (MemoryError, ValueError) as error:
-                raise ParameterError(Fault(("windows", name), "", f"{error}: too many")) from None
+            rule = f"must have {MOST_SAMPLES:.0e} samples at most"
+            require((grid.number <= MOST_SAMPLES, f"windows.{name}", window, rule))
+            self.samples[name] = Samples(getattr(window, "envelope", None) or 1)
         capacity = BUFFER if grids else 0
         return record.RunBuffers(
             np.zeros(record.N_COUNTERS, np.int64),
@@ -135,33 +125,31 @@ class Run:
             np.empty((EVENT_BUFFER, len(record.EVENT_ROW))),
         )
 
-    def _first_limits(self, order: int, start: float) -> loop.Limits:
-        """Return the limits of the engine for series of an order, to the end of the run."""
-        request = self.request
+    def _first_limits(self, start: float) -> loop.Limits:
+        """Return the limits of the engine to the end of the run."""
         model = self.case.model
-        execution = request.execution
-        most: float | None = execution.max_steps
+        most: float | None = self.execution.max_steps
         if most is None:
             # twenty for each radian of the highest mode, far more than any published case takes
             most = 10_000 + 20 * (self.t_end - start) / model.unit
 
-        compliant = request.case.contact_compliance != 0
-        tolerance = states.series_tolerance(request.tol, compliant)
-        if any(ramp.parameter == "Omega" and ramp.to == 0 for ramp in request.ramps):
+        compliant = self.parameters.contact_compliance != 0
+        tolerance = states.series_tolerance(self.tol, compliant)
+        if any(ramp.parameter == "Omega" and ramp.to == 0 for ramp in self.ramps):
             tolerance /= STOPPING
 
         # pauses serve Ctrl-C; there are fewer steps between them where a step costs
         # more. A compliant contact takes about four times as many steps per second
         step_cost = blocks_of(model)
         audit_every = 256
-        if execution.audit_every_step:
+        if self.execution.audit_every_step:
             step_cost = 6 * step_cost
             audit_every = 1
         return loop.Limits(
-            order=order,
+            order=self.order,
             tolerance=tolerance,
             t_end=self.t_end,
-            may_separate=request.stop_at is None,
+            may_separate=self.stop_at is None,
             max_steps=int(min(most, MOST_STEPS)),
             pause_after=max(1, STEPS_PER_PAUSE // step_cost),
             audit_every=audit_every,
@@ -196,29 +184,21 @@ class Run:
         for sums in (buffers.counters, buffers.phase_times, buffers.audit):
             sums.fill(0)
 
-    def complete(self) -> Result:
-        """Compute to the end."""
-        code = self.advance()
-        while code == transitions.PAUSED:
-            code = self.advance()
-        return self.result(_STATUS[code])
-
     @property
     def time(self) -> float:
         """The time reached, s."""
         return motion.time_of(self.state)
 
-    def advance(self) -> int:
-        """Compute until the engine pauses or ends, and empty its buffers.  Returns the exit
-        code."""
-        began = clock.perf_counter()
-        code = self.engine(*self._arguments())
-        if code == transitions.TIME_OVER and self.limits.t_end < self.t_end:
-            self._enter(self.index + 1)
-            code = transitions.PAUSED
-        self._drain()
-        self.wall_time += clock.perf_counter() - began
-        return code
+    def complete(self) -> Result:
+        """Compute to the end, and empty the buffers in each pause of the engine."""
+        code = transitions.PAUSED
+        while code == transitions.PAUSED:
+            code = self.engine(*self._arguments())
+            if code == transitions.TIME_OVER and self.limits.t_end < self.t_end:
+                self._enter(self.index + 1)
+                code = transitions.PAUSED
+            self._drain()
+        return self._result(_STATUS[code])
 
     def _arguments(self) -> tuple[Any, ...]:
         return self.model, self.series, self.state, self.probe, self.limits, self.buffers
@@ -231,14 +211,13 @@ class Run:
         counters[record.EVENT_ROWS] = counters[record.SAMPLE_ROWS] = 0
         if counters[record.SEPARATIONS] > 0 and math.isnan(self.first_separation):
             self.first_separation = events[events[:, 1] == record.LOSS_OF_CONTACT][0, 0].item()
-        self.events.append(events.copy() if self.request.events else events[:0])
+        self.event_rows.append(events.copy() if self.events else events[:0])
         for i, samples in enumerate(self.samples.values()):
             samples.add(rows[rows[:, 0] == i, 1:])
 
-    def result(self, status: Status) -> Result:
+    def _result(self, status: Status) -> Result:
         """Assemble the result of the run, which ends here: other runs of the case may use its
         arrays."""
-        request = self.request
         angle = angle_of_drive(self.pieces, self.time) + self.lead
         final_state = states.read_state(self.case, self.state, self.key, drive_angle=angle)
         message = f"at t = {self.time:.9g} s in {final_state.phase}"
@@ -251,63 +230,57 @@ class Run:
         if status is Status.PARADOX:
             slope = slope_under_slider(self.model, self.state)
             message += f", psi = {final_state.psi:.6g} rad, f = {final_state.f:.6g} rad/s, slope B = {slope:.6g}"
-        result = Result(
-            parameters=request.case,
+        self.case.idle[self.order].append((self.state, self.probe, self.series))
+        return Result(
+            parameters=self.parameters,
             t_end=self.t_end,
-            tol=request.tol,
-            windows=request.windows,
+            tol=self.tol,
+            windows=self.windows,
             status=status,
             message=f"{status.value}: {message}",
-            event_rows=np.concatenate(self.events),
+            event_rows=np.concatenate(self.event_rows),
             first_separation=self.first_separation,
             final_state=final_state,
             u_0=self.model.u_0,
             statistics=self._statistics(),
             samples={name: samples.arrays() for name, samples in self.samples.items()},
-            ramps=request.ramps,
-            initial_state=request.initial_state,
+            ramps=self.ramps,
+            initial_state=self.initial_state,
         )
-        self.case.idle[self.limits.order].append((self.state, self.probe, self.series))
-        return result
 
     def _statistics(self) -> dict[str, float]:
         """Return the `Result.statistics`."""
         count = self.buffers.counters.tolist()
         total = self.buffers.audit.tolist()
         times = zip(PHASES, self.buffers.phase_times.tolist(), strict=True)
-        # energies, which need the sums over every step, but for the worst of the audited ones
-        residuals = dict.fromkeys(map("energy_residual_{}".format, BALANCES), math.nan)
-        worst = surface = math.nan
-        if self.request.execution.audit_every_step:
-            for name, (residual, scale, turnover) in BALANCES.items():
-                size = total[scale] + total[turnover] or 1.0
-                residuals[f"energy_residual_{name}"] = abs(total[residual]) / size
-        if total[audit.STEPS]:
-            worst = total[audit.WORST]
-        if self.model.has_moving_surface:
-            surface = total[audit.SURFACE]
-        return {
+        statistics: dict[str, float] = {
             "steps": count[record.STEPS],
             "n_events": count[record.EVENTS],
             "n_separations": count[record.SEPARATIONS],
             **{f"time_{phase}": time for phase, time in times},
-            "energy_residual": worst,
-            **residuals,
+            "energy_residual": math.nan,
             "audited_steps": int(total[audit.STEPS]),
-            "surface_speed": surface,
-            "wall_time": self.wall_time,
+            "surface_speed": math.nan,
         }
+        if total[audit.STEPS]:
+            statistics["energy_residual"] = total[audit.WORST]
+        if self.model.has_moving_surface:
+            statistics["surface_speed"] = total[audit.SURFACE]
+        for name, (residual, scale, turnover) in BALANCES.items():
+            share = math.nan  # energies need the sums over every step
+            if self.execution.audit_every_step:
+                share = abs(total[residual]) / (total[scale] + total[turnover] or 1.0)
+            statistics[f"energy_residual_{name}"] = share
+        return statistics
 
 
 class Samples:
-    """Samples of a window, or bins of an envelope, in columns for as many as there may be, of which
-    some are filled."""
+    """Samples of a window, or the bins of an envelope of so many samples each."""
 
-    def __init__(self, count: int, fold: int) -> None:
-        self.names = BIN_ROW if fold > 1 else SAMPLE_ROW
-        self.columns = np.empty((len(self.names), count // fold))
+    def __init__(self, fold: int) -> None:
         self.fold = fold
-        self.filled = 0
+        self.names = BIN_ROW if fold > 1 else SAMPLE_ROW
+        self.parts = [np.empty((0, len(self.names)))]
         self.rest = np.empty((0, len(SAMPLE_ROW)))  # rows of the bin that is not full
 
     def add(self, rows: Array) -> None:
@@ -317,13 +290,12 @@ class Samples:
             whole = len(rows) // self.fold * self.fold
             self.rest = rows[whole:]
             rows = _fold(rows[:whole].reshape(-1, self.fold, len(SAMPLE_ROW)))
-        filled = self.filled + len(rows)
-        self.columns[:, self.filled : filled] = rows.T
-        self.filled = filled
+        self.parts.append(rows)
 
     def arrays(self) -> dict[str, Array]:
         """What was recorded, by name."""
-        return dict(zip(self.names, self.columns[:, : self.filled], strict=True))
+        columns = np.concatenate([part.T for part in self.parts], axis=1)
+        return dict(zip(self.names, columns, strict=True))
 
 
 def _fold(cells: Array) -> Array:

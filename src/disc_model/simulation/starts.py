@@ -4,33 +4,28 @@ from __future__ import annotations
 
 from functools import lru_cache
 
+from disc_model.disc.plate import mode_arrays
 from disc_model.errors import require
 from disc_model.parameters import Parameters
 from disc_model.simulation import states
 from disc_model.simulation.api import simulate
-from disc_model.simulation.case import Prerun, Start
+from disc_model.simulation.case import Start
 from disc_model.simulation.states import State
 from disc_model.units import Tolerance, checked
 
 
 @checked
-def initial_state(
-    case: Parameters,
-    start: Start | None = None,
-    *,
-    prerun: Prerun | None = None,
-    tol: Tolerance = 1e-10,
-) -> State:
+def initial_state(case: Parameters, start: Start | None = None, *, tol: Tolerance = 1e-10) -> State:
     """State from which `outcome`, or a point of a study, starts, for the `initial_state` of
     `simulate`, `snapshots` and `lyapunov_exponents`.
 
     Parameters
     ----------
     case : the case
-    start : perturbations of the static start by name, as in `outcome`: u (m), u_velocity (m/s), f (rad/s)
-    prerun : another case that is simulated first, from the static start, as in study files: its `parameters` that
-        differ from the case's, and the `time` (s) after which its state is taken. The perturbations are added to this
-        state
+    start : as in `outcome` and in study files, by name: u (m), u_velocity (m/s) and f (rad/s) are added to the static
+        start, or to the state after a "prerun", another case that is simulated first, from the static start: its
+        "parameters" that differ from the case's, which must leave the modes of the disc as they are, and the "time" (s)
+        after which its state is taken
     tol : as in `simulate`, of the prerun
 
     Returns
@@ -54,23 +49,20 @@ def initial_state(
     >>> print(f"{dm.simulate(case, 60).first_separation} s, {run.first_separation:.2f} s")
     nan s, 42.23 s
     """
-    begin = (start or Start()).replace(prerun=prerun)
-    return make_initial_state(case, begin, tol) or states.static_start(case)
+    return make_initial_state(case, start or Start(), tol) or states.static_start(case)
 
 
 def make_initial_state(p: Parameters, start: Start, tol: float) -> State | None:
     """The initial state of a motion of case `p`, at time 0; None is the static start. Raises
-    `SimulationError` if the preceding motion ends early, `ParameterError` if its disc has another
-    number of modes."""
+    `SimulationError` if the preceding motion ends early, `ParameterError` if its disc has other
+    modes."""
     state = None
     if start.prerun is not None:
         other = p.replace(**start.prerun.parameters)
-        for name in ("n_diameters", "n_circles"):
-            count = getattr(other, name)
-            needed = getattr(p, name)
-            path = f"start.prerun.parameters.{name}"
-            require((count == needed, path, count, f"must be that of the case, {needed}"))
-        state = states.transfer_state(p, _end_of(other, start.prerun.time, tol))
+        state = _end_of(other, start.prerun.time, tol).replace(time=0.0)
+        same = states.belongs_to(state, mode_arrays(p).psi)
+        rule = "must leave the modes of the disc as they are"
+        require((same, "start.prerun.parameters", start.prerun.parameters, rule))
     kick = {name: value for name, value in start if name != "prerun" and value}
     if not kick:
         return state

@@ -6,13 +6,13 @@ from __future__ import annotations
 import dataclasses
 import math
 from collections import defaultdict
-from collections.abc import Iterable
+from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cache, lru_cache
+from functools import cache, lru_cache, partial
 from typing import Annotated, Any
 
 import numpy as np
-from pydantic import PlainValidator
+from pydantic import InstanceOf, PlainSerializer, PlainValidator
 
 from disc_model.arrays import Array, EqualByValue
 from disc_model.data.variables import PHASES
@@ -42,6 +42,12 @@ PLAIN = ("time", "time_low", "psi", "f", "u", "u_velocity", "surface_turn")
 SAME_HEIGHT = 1e-9
 INSIDE = 1e-5  # likewise, by which errors of the loosest series may put a slider into the disc
 SAME_SPEED = 1e-9  # relative to the drive's: a slip by less against its direction is rounding too
+
+
+Modal = Annotated[
+    Array, PlainValidator(partial(np.array, dtype=float)), PlainSerializer(np.ndarray.tolist)
+]
+"""An array of numbers, a list in files."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -85,15 +91,15 @@ class State(EqualByValue):
     f: float
     u: float
     u_velocity: float
-    a: Array
-    b: Array
-    alpha: Array
-    beta: Array
+    a: Modal
+    b: Modal
+    alpha: Modal
+    beta: Modal
     time_low: float = 0.0
     surface_turn: float = 0.0
     drive_angle: float | None = None
     case_key: str = ""
-    mode_amplitudes: Array | None = None
+    mode_amplitudes: Modal | None = None
     _roots: tuple[int, int] = (0, 0)  # multiplicity at this instant, `engine.state.known_roots`
 
     def replace(self, **changes: Any) -> State:
@@ -121,17 +127,13 @@ class State(EqualByValue):
         """What names it in a row of a table."""
         return f"State({self.time:.6g} s, {self.phase})"
 
-    def slider_angle(self, case: Parameters) -> float:
-        """Angle of the slider on the disc, rad, from the place where it was at the time 0: that of
-        the drive point, less psi."""
-        if self.drive_angle is None:
-            return case.Omega * self.time - self.psi
-        return self.drive_angle - self.psi
-
     def material_angle(self, case: Parameters) -> float:
         """Angle on the disc of the material point under the slider, rad, about which modal
-        coordinates are resolved: `slider_angle` less `surface_turn`."""
-        return self.slider_angle(case) - self.surface_turn
+        coordinates are resolved: that of the drive point, less psi and `surface_turn`."""
+        turned = self.drive_angle
+        if turned is None:
+            turned = case.Omega * self.time
+        return turned - self.psi - self.surface_turn
 
 
 def static_start(p: Parameters) -> State:
@@ -160,9 +162,7 @@ def perturb(
         "f": state.f + f,
     }
     if f and state.phase != "separation":
-        rate = f
-        if state.phase == "slip":
-            rate += slip_rate(p, state)
+        rate = slip_rate(p, state) + f
         changes |= {"phase": "slip" if rate else "stick", "direction": int(np.sign(rate))}
     return state.replace(**changes)
 
@@ -175,33 +175,6 @@ def slip_rate(p: Parameters, state: State) -> float:
 def surface_rate(p: Parameters, state: State) -> float:
     """Speed of the disc's surface under the slider over r_0, rad/s."""
     return float(engine_case(p).surface @ state.beta)
-
-
-def transfer_state(p: Parameters, state: State) -> State:
-    """A state of another case at time 0 of case `p`, with the same modal coordinates and distance
-    of slider and disc, which is zero in rigid contact. A state with another number of modes is
-    passed on, and `simulate` refuses it."""
-    modes = mode_arrays(p)
-    if len(modes.psi) != len(state.a):
-        return state.replace(time=0.0)
-    more = np.zeros(len(modes.psi))
-    if state.mode_amplitudes is not None:
-        more = modes.psi - state.mode_amplitudes
-    u = state.u + more @ state.a
-    f = state.f
-    direction = state.direction
-    if state.phase != "separation" and p.contact_compliance == 0:
-        u = modes.psi @ state.a
-    surface = surface_rate(p, state)
-    if state.phase == "stick":
-        f = surface
-    elif state.phase == "slip" and f != surface:
-        direction = int(np.sign(f - surface))
-    slope = more @ (modes.diameters * state.b)
-    velocity = state.u_velocity + more @ state.alpha + (f - surface) * slope
-    return state.replace(
-        time=0.0, f=f, direction=direction, u=u, u_velocity=velocity, mode_amplitudes=modes.psi
-    )
 
 
 def _numbers(values: object) -> Array:
@@ -220,7 +193,12 @@ Angles = Annotated[Any, PlainValidator(_numbers), Unit("rad")]
 
 
 @checked
-def deflection(case: Parameters, states: Any, r: Radii, theta: Angles) -> Any:
+def deflection(
+    case: Parameters,
+    states: InstanceOf[State] | Sequence[InstanceOf[State]],
+    r: Radii,
+    theta: Angles,
+) -> Any:
     """Displacement w(r, theta, t) of the whole disc, upward, Eq. (15).
 
     Parameters
@@ -253,15 +231,12 @@ def deflection(case: Parameters, states: Any, r: Radii, theta: Angles) -> Any:
 
     modes = mode_arrays(case)
     low, high = radial_range(case)
-    given = states
-    if isinstance(states, State):
-        given = [states]
-    fit = isinstance(given, Iterable) and all(_fits(state, modes.psi) for state in given)
+    given = [states] if isinstance(states, State) else states
     rule = f"must be within {as_text(low)} and {as_text(high)}"
-    require(
-        (np.all((low <= r) & (r <= high)), "r", r.tolist(), rule),
-        (fit, "states", states, f"must be states of the case, with {len(modes.psi)} modes"),
-    )
+    require((np.all((low <= r) & (r <= high)), "r", r.tolist(), rule))
+    for state in given:
+        rule = f"must be states of the case, with {len(modes.psi)} modes"
+        require((belongs_to(state, modes.psi), "states", state, rule))
     shapes = mode_shapes(case, r).T
     w = []
     for state in given:
@@ -370,33 +345,22 @@ def read_state(
     modal = np.zeros(4 * len(case.amplitudes))
     modal[case.present] = state.disc[case.places]
     modal.setflags(write=False)
-    a, b, alpha, beta = modal.reshape(4, -1)
+    modes: dict[str, Any] = dict(zip(MODAL, modal.reshape(4, -1), strict=True))
     phase = motion.phase_of(state)
     direction = motion.direction_of(state)
-    scalars = motion.scalars_of(state)
-    rate = scalars["g"]
+    scalars: dict[str, Any] = motion.scalars_of(state)
+    rate = scalars.pop("g")
     if phase == SLIP and rate * direction < 0:
         rate = 0.0  # slip that has just begun or is about to end, and g is rounding
     w, velocity, slope, surface = case.point.dot(state.disc).tolist()
-    u = scalars["u"]
-    u_velocity = scalars["u_velocity"]
     if phase != SEPARATION and not case.model.has_compliance:
-        u = w
-        u_velocity = velocity + rate * slope
+        scalars |= {"u": w, "u_velocity": velocity + rate * slope}
     return State(
-        time=scalars["time"],
+        **scalars,
+        **modes,
         phase=PHASES[phase],
         direction=direction,
-        psi=scalars["psi"],
         f=rate + surface,
-        u=u,
-        u_velocity=u_velocity,
-        a=a,
-        b=b,
-        alpha=alpha,
-        beta=beta,
-        time_low=scalars["time_low"],
-        surface_turn=scalars["surface_turn"],
         drive_angle=drive_angle,
         case_key=key or case.key,
         mode_amplitudes=case.amplitudes,
@@ -416,7 +380,7 @@ def write_state(
     modal = np.concatenate([getattr(source, name) for name in MODAL])
     state.disc[case.places] = modal[case.present]
     gap = _checked_gap(case, source, state, is_start=is_start)
-    rate = _rate_over_material(case, source)
+    rate = _checked_rate(case, source)
 
     # the engine's scalars are those of `PLAIN`, with the rate over the material in place of f
     values = [getattr(source, name) for name in PLAIN]
@@ -425,10 +389,71 @@ def write_state(
     phase = PHASES.index(source.phase)
     if phase == SLIP and case.model.has_compliance and rate == gap == 0 and not any(source._roots):
         phase = STICK  # no force, and so no friction that slip could overcome
-    direction = source.direction * (phase == SLIP)
-    motion.put_phase(state, phase, direction, source._roots)
+    motion.put_phase(state, phase, source.direction * (phase == SLIP), source._roots)
     at_event = any(source._roots) and source.case_key != (key or case.key)
-    return at_event and _forget_switch(case, state)
+    return at_event and _forget_switch(case, source, state, gap, rate)
+
+
+def _forget_switch(
+    case: EngineCase, source: State, state: EngineState, gap: float, rate: float
+) -> bool:
+    """Adapt a state at an event of another case: an event function that vanishes there need not
+    vanish here. Returns whether the engine must determine if contact lasts: a slider that rests on
+    the disc is put into contact."""
+    sizes = SAME_HEIGHT * np.abs(case.point).dot(np.abs(state.disc))
+    _, velocity, slope, _ = case.point.dot(state.disc)
+    phase = motion.phase_of(state)
+    opening = source.u_velocity - velocity - rate * slope
+    touches = abs(gap) <= sizes[0]
+    rests = abs(opening) <= sizes[1] + abs(rate) * sizes[2]
+    known = (0, 0)
+    if phase == SEPARATION and touches and not rests:
+        known = (int(opening > 0), 0)
+    elif case.model.has_compliance and touches and source._roots[1] > 0:
+        known = (int(rate == 0 and phase == SLIP), 1)
+    elif touches or phase == SLIP:
+        motion.put_phase(state, SLIP if rate else STICK, int(np.sign(rate)))
+        return True
+    motion.put_phase(state, phase, motion.direction_of(state), known)
+    return False
+
+
+def _check(state: State, case: EngineCase) -> None:
+    """Raise `ParameterError` if a value of a state is none, or the state is one of other modes."""
+    count = len(case.amplitudes)
+    rule = f"must be {count} finite numbers, one per row of plate_modes"
+    for name in MODAL:
+        values = getattr(state, name)
+        good = np.shape(values) == (count,) and np.asarray(values).dtype.kind in "fiu"
+        require((good and np.isfinite(values).all(), f"initial_state.{name}", values, rule))
+    numbers = {name: getattr(state, name) for name in PLAIN}
+    numbers["drive_angle"] = state.drive_angle or 0.0
+    for name, value in numbers.items():
+        good = is_number(value) and math.isfinite(value)
+        require((good, f"initial_state.{name}", value, "must be a finite number"))
+    signed = state.phase != "slip" or state.direction in (-1, 1)
+    own = belongs_to(state, case.amplitudes)
+    rule = "must be psi of plate_modes: the state belongs to other modes"
+    digit = math.ulp(state.time)  # of which the clock's compensation is a part
+    less = "must be less than the last digit of the time"
+    require(
+        (state.phase in PHASES, "initial_state.phase", state.phase, rule_of_choice(PHASES)),
+        (signed, "initial_state.direction", state.direction, "must be -1 or 1 in slip"),
+        (own, "initial_state.mode_amplitudes", state.mode_amplitudes, rule),
+        (abs(state.time_low) <= digit, "initial_state.time_low", state.time_low, less),
+    )
+
+
+def belongs_to(state: State, amplitudes: Array) -> bool:
+    """Whether a state is one of modes with these amplitudes, shape (n_modes,)."""
+    stated = state.mode_amplitudes
+    if stated is None:
+        return len(state.a) == len(amplitudes)
+    if stated is amplitudes:  # as nearly always, and at once
+        return True
+    # modes from two processors differ by at most 1e-13 (measured)
+    within = 1e-9 * np.max(np.abs(amplitudes), initial=0.0)
+    return np.shape(stated) == amplitudes.shape and np.allclose(stated, amplitudes, 0, within)
 
 
 def _checked_gap(case: EngineCase, source: State, state: EngineState, *, is_start: bool) -> float:
@@ -438,111 +463,36 @@ def _checked_gap(case: EngineCase, source: State, state: EngineState, *, is_star
     w = float(row.dot(state.disc))
     gap = source.u - w
     place = "at"
-    room = SAME_HEIGHT
-    free: object = case.model.has_compliance
+    good = case.model.has_compliance or gap == 0
+    size = float(np.abs(row).dot(np.abs(state.disc))) + abs(source.u_velocity) * case.model.unit
     if source.phase == "separation":
         place = "at or above"
-        room = INSIDE
-        free = gap > 0 or not is_start
-    if gap == 0 or free:
-        return gap
-    size = float(np.abs(row).dot(np.abs(state.disc))) + abs(source.u_velocity) * case.model.unit
-    where = f"{place} the disc under the slider, {w:.9g}, in {source.phase}"
-    rule = f"must be {where}: change a with it"
-    require((abs(gap) <= room * size, "initial_state.u", source.u, rule))
+        good = not is_start or gap >= -INSIDE * size
+    rule = (
+        f"must be {place} the disc under the slider, {w:.9g}, in {source.phase}: change a with it"
+    )
+    require((good or abs(gap) <= SAME_HEIGHT * size, "initial_state.u", source.u, rule))
     return gap
 
 
-def _rate_over_material(case: EngineCase, source: State) -> float:
-    """The rate g of a state that `_check` has found good: 0 in stick, and where only rounding makes
-    it differ from 0 or from the direction of slip."""
+def _checked_rate(case: EngineCase, source: State) -> float:
+    """The rate g over the material, rad/s: 0 in stick, and where only rounding makes it differ from 0
+    or from the direction of slip. Raises `ParameterError` if it differs by more."""
     surface = float(case.surface @ source.beta)
     rate = source.f - surface
     if source.phase == "separation":
         return rate
-    begins = source._roots[0] > 0
-    rounding = begins and abs(rate) <= SAME_SPEED * (case.model.Omega + abs(surface))
-    against = rate * source.direction < 0
-    if rounding or against or source.phase == "stick":
+    if source.phase == "stick":
+        rule = f"must be {surface:.9g} in stick, the disc's surface's"
+        require((abs(rate) <= SAME_SPEED * abs(surface), "initial_state.f", source.f, rule))
+        return 0.0
+    rounding = SAME_SPEED * (case.model.Omega + abs(surface))
+    rule = f"must have the sign of direction={source.direction}, less the surface's {surface:.9g}"
+    require((rate * source.direction >= -rounding, "initial_state.f", source.f, rule))
+    begins = source._roots[0] > 0 and abs(rate) <= rounding
+    if begins or rate * source.direction < 0:
         return 0.0
     return rate
-
-
-def _forget_switch(case: EngineCase, state: EngineState) -> bool:
-    """Adapt a state at an event of another case: an event function that vanishes there need not
-    vanish here. Returns whether the engine must determine if contact lasts: a slider that rests on
-    the disc is put into contact."""
-    sizes = np.abs(case.point).dot(np.abs(state.disc))
-    w, velocity, slope, _ = case.point.dot(state.disc)
-    scalars = motion.scalars_of(state)
-    phase = motion.phase_of(state)
-    direction = motion.direction_of(state)
-    rate = scalars["g"]
-    begins = motion.known_roots(state)[1] > 0
-    opening = scalars["u_velocity"] - velocity - rate * slope
-    touches = abs(scalars["u"] - w) <= SAME_HEIGHT * sizes[0]
-    rests = abs(opening) <= SAME_HEIGHT * (sizes[1] + abs(rate) * sizes[2])
-    if phase == SEPARATION and touches and not rests:
-        motion.put_phase(state, phase, direction, (int(opening > 0), 0))
-    elif case.model.has_compliance and touches and begins:
-        motion.put_phase(state, phase, direction, (int(rate == 0 and phase == SLIP), 1))
-    elif touches or phase == SLIP:
-        motion.put_phase(state, SLIP if rate else STICK, int(np.sign(rate)))
-        return True
-    else:
-        motion.put_phase(state, phase, direction)
-    return False
-
-
-def _check(state: State, case: EngineCase) -> None:
-    """Raise `ParameterError` if a state cannot be the initial one of a case."""
-    path = "initial_state."
-    count = len(case.amplitudes)
-    rules = []
-    for name in MODAL:
-        values = getattr(state, name)
-        rule = f"must be {count} finite numbers, one per row of plate_modes"
-        good = np.shape(values) == (count,) and np.asarray(values).dtype.kind in "fiu"
-        rules.append((good and np.isfinite(values).all(), path + name, values, rule))
-    plain = {name: getattr(state, name) for name in PLAIN}
-    if state.drive_angle is not None:
-        plain["drive_angle"] = state.drive_angle
-    for name, value in plain.items():
-        good = is_number(value) and math.isfinite(value)
-        rules.append((good, path + name, value, "must be a finite number"))
-    signed = state.phase != "slip" or state.direction in (-1, 1)
-    require(
-        *rules,
-        (state.phase in PHASES, path + "phase", state.phase, rule_of_choice(PHASES)),
-        (signed, path + "direction", state.direction, "must be -1 or 1 in slip"),
-    )
-    surface = float(case.surface @ state.beta)
-    off = state.f - surface
-    rounding = SAME_SPEED * (case.model.Omega + abs(surface))
-    held = state.phase != "stick" or abs(off) <= SAME_SPEED * abs(surface)
-    ahead = state.phase != "slip" or off * state.direction >= -rounding
-    signs = f"must have the sign of direction={state.direction}, less the surface's {surface:.9g}"
-    others = "must be psi of plate_modes: the state belongs to other modes"
-    digit = math.ulp(state.time)  # of which the clock's compensation is a part
-    rule = "must be less than the last digit of the time"
-    require(
-        (abs(state.time_low) <= digit, path + "time_low", state.time_low, rule),
-        (held, path + "f", state.f, f"must be {surface:.9g} in stick, the disc's surface's"),
-        (ahead, path + "f", state.f, signs),
-        (_fits(state, case.amplitudes), path + "mode_amplitudes", state.mode_amplitudes, others),
-    )
-
-
-def _fits(state: object, amplitudes: Array) -> bool:
-    """Whether this is a state of modes with these amplitudes, shape (n_modes,)."""
-    if not isinstance(state, State) or len(state.a) != len(amplitudes):
-        return False
-    stated = state.mode_amplitudes
-    if stated is None or stated is amplitudes:
-        return True
-    # modes from two processors differ by at most 1e-13 (measured)
-    within = 1e-9 * np.max(np.abs(amplitudes), initial=0.0)
-    return np.shape(stated) == amplitudes.shape and np.allclose(stated, amplitudes, 0, within)
 
 
 # Local truncation error for a tolerance of 1, on rigid and on compliant contact. With it the errors

@@ -96,15 +96,15 @@ def _measure(run: Result) -> Row:
     """Columns of a stretch of motion."""
     from disc_model.analysis.classify import separation_location
     from disc_model.analysis.contact_loss import excess_of_flights, pinned_range
-    from disc_model.analysis.spectra import main_vibration, vibration_at
+    from disc_model.analysis.spectra import main_frequency, share_at
 
     count = run.statistics["n_separations"]
     samples = run["late"]
     time = samples["time"].values
     height = samples["u"].values
     duration = float(time[-1] - time[0])
-    vibration = main_vibration(time, height)
-    pinned = pinned_range(run.parameters, vibration.frequency)
+    frequency = main_frequency(time, height)
+    pinned = pinned_range(run.parameters, frequency)
     apart = run.statistics["time_separation"] / duration
     extent = float(np.ptp(height))
 
@@ -117,9 +117,9 @@ def _measure(run: Result) -> Row:
         "deviation": extent / pinned - 1,
         "flight_excess": excess_of_flights(apart),
         "lowest_force": float(samples["P"].min()),
-        "vibration_frequency": vibration.frequency,
-        "vibration_share": vibration.share,
-        "force_share": vibration_at(time, samples["P"].values, vibration.frequency).share,
+        "vibration_frequency": frequency,
+        "vibration_share": share_at(time, height, frequency),
+        "force_share": share_at(time, samples["P"].values, frequency),
         "separation_rate": count / duration,
         "separation_fraction": apart,
         "stick_fraction": run.statistics["time_stick"] / duration,
