@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Annotated
 import numpy as np
 from xarray import Dataset
 
-from disc_model.data.variables import PHASES
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Window
 from disc_model.studies.quantity import Row, found, listed, quantity
@@ -94,8 +93,7 @@ def range_law(
 
 def _measure(run: Result) -> Row:
     """Columns of a stretch of motion."""
-    from disc_model.analysis.classify import separation_location
-    from disc_model.analysis.contact_loss import excess_of_flights, pinned_range
+    from disc_model.analysis.contact_loss import pinned_range
     from disc_model.analysis.spectra import main_vibration, vibration_at
 
     count = run.statistics["n_separations"]
@@ -105,25 +103,16 @@ def _measure(run: Result) -> Row:
     duration = float(time[-1] - time[0])
     vibration = main_vibration(time, height)
     pinned = pinned_range(run.parameters, vibration.frequency)
-    apart = run.statistics["time_separation"] / duration
     extent = float(np.ptp(height))
-
-    # samples at which separations begin; shorter ones lie between two samples
-    is_apart = samples["phase"].values == PHASES.index("separation")
-    starts = np.flatnonzero(np.diff(is_apart.astype(int)) == 1) + 1
-    values = {
+    return {
         "range": extent,
         "pinned_range": pinned,
         "deviation": extent / pinned - 1,
-        "flight_excess": excess_of_flights(apart),
         "lowest_force": float(samples["P"].min()),
         "vibration_frequency": vibration.frequency,
         "vibration_share": vibration.share,
         "force_share": vibration_at(time, samples["P"].values, vibration.frequency).share,
         "separation_rate": count / duration,
-        "separation_fraction": apart,
+        "separation_fraction": run.statistics["time_separation"] / duration,
         "stick_fraction": run.statistics["time_stick"] / duration,
     }
-    if starts.size:
-        values["loss_position"] = separation_location(height, starts)
-    return values

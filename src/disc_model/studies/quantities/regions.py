@@ -73,7 +73,9 @@ def regions(
         if followed is None or result.outcome is Outcome.STICK_SLIP:
             followed = result.near
     if followed is not None:
-        values |= _columns_of(followed.cycle)
+        cycle = followed.cycle
+        values |= {"cycle": "followed", "growth_rate": cycle.growth_rate}
+        values |= {"period": cycle.period, "releases": cycle.releases}
     else:
         values["cycle"] = _without_cycle(start, values["outcome"])
     return found("regions", values, message)
@@ -104,17 +106,3 @@ def _without_cycle(start: FloquetResult | NearCycle, outcome: str) -> str:
     if motion in known:
         return motion
     return "no_cycle"
-
-
-def _columns_of(cycle: FloquetResult) -> Row:
-    """The columns of the cycle that a static start follows."""
-    from disc_model.analysis.spectra import modes_at_rest
-
-    bound = [frequency for frequency, _, moves in modes_at_rest(cycle.parameters) if moves]
-    return {
-        "cycle": "followed",
-        "growth_rate": cycle.growth_rate,
-        "period": cycle.period,
-        "releases": cycle.releases,
-        "period_ratio": cycle.period * min(bound),
-    }
