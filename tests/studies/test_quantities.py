@@ -660,10 +660,9 @@ def test_a_transient_is_doubled_until_the_motion_has_settled(
 
 @pytest.mark.compiled
 def test_columns_are_those_of_steady_sliding_at_each_value() -> None:
-    """With mu_k, mu_s rises where that would be larger."""
-    found = dm.sliding_modes(FALLING, name="mu_k", bounds=(0.1, 0.5), step=0.2)
-    for i, mu_k in enumerate((0.1, 0.3, 0.5)):
-        case = FALLING.replace(mu_k=mu_k, mu_s=max(mu_k, FALLING.mu_s))
+    found = dm.sliding_modes(FALLING, name="mu_k", bounds=(0.1, 0.3), step=0.1)
+    for i, mu_k in enumerate((0.1, 0.2, 0.3)):
+        case = FALLING.replace(mu_k=mu_k)
         sliding = dm.steady_sliding(case)
         assert found["largest_growth_rate"].values[i] == sliding.growth_rate
         upper = sliding.eigenvalues[sliding.eigenvalues.imag > 0]
