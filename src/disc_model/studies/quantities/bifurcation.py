@@ -82,7 +82,6 @@ def bifurcation(
         "transient_time": reached.stay,
         "settled": settled,
         **_attractor(case, reached, last, record, tol),
-        "status": "ok",
     }
     message = ""
     if settled != "settled":

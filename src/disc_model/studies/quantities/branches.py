@@ -117,7 +117,6 @@ def branches(
     found_values: Row = {
         **listed(family.rows),
         **swept,
-        "status": "ok",
         "n_branches": len(family.rows),
         "n_continuation_failures": family.failures,
         "sliding_growth_rate": [
@@ -130,9 +129,8 @@ def branches(
         cycles = counted(family.left_out, "cycle")
         remarks.append(f"{cycles} of further branches, for which there is no room")
     own: Row = {"branch": range(MOST_BRANCHES), "branch_point": range(2 * MOST_POINTS)}
-    message = "; ".join(remarks)
     own |= {"direction": DIRECTIONS, "sweep_value": values}
-    return found("branches", found_values, message, **own)
+    return found("branches", found_values, *remarks, **own)
 
 
 @dataclass

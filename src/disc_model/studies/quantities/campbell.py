@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from functools import partial
 
 import numpy as np
 from xarray import Dataset
@@ -61,26 +62,26 @@ def campbell(
     array([66.8, 67.1, 67.5])
     """
     speeds = values_between(bounds, step)
-    rows: list[Row] = [{} for _ in speeds]
-    messages = attempted(rows, lambda i, row: _at_speed(case.replace(Omega=speeds[i]), tol, row))
-    values: Row = dict(listed(rows))
+    rows: list[Row] = [{"speed": speed} for speed in speeds]
+    values: Row = attempted(rows, partial(_at_speed, case, tol))
     own: Row = {"Omega": speeds, "mode": range(1, MODES + 1)}
-    crossings = [*_crossings(found("campbell", values, messages, **own))]
+    crossings = [*_crossings(found("campbell", values, **own))]
     crossings.sort(key=lambda row: (row["Omega"], row["mode"], row["multiple"]))
     values["n_crossings"] = len(crossings)
     values |= {f"crossing_{name}": column for name, column in listed(crossings).items()}
-    return found("campbell", values, messages, **own, crossing=range(1, CROSSINGS + 1))
+    return found("campbell", values, **own, crossing=range(1, CROSSINGS + 1))
 
 
 def _at_speed(case: Parameters, tol: float, row: Row) -> Iterator[str]:
-    """Add the values at a speed; yields a message."""
+    """Add the values at the speed of a row; yields a message."""
     from disc_model.stability.frequencies import frequencies, may_be_near
 
-    cycle, modes, (frequency, growth_rate, mac) = frequencies(case, tol=tol)
+    at_speed = case.replace(Omega=row["speed"])
+    cycle, modes, (frequency, growth_rate, mac) = frequencies(at_speed, tol=tol)
     row |= {
         "status": cycle.status.value,
         "growth_rate": cycle.growth_rate,
-        "rotation_frequency": case.Omega / (2 * math.pi),
+        "rotation_frequency": row["speed"] / (2 * math.pi),
         "n_modes": len(modes.frequency),
         "largest_sliding_growth_rate": cycle.sliding.growth_rate,
         "mode_kind": ["slider" if diameters < 0 else "disc" for diameters in modes.diameters],

@@ -137,8 +137,7 @@ def critical_speed(
     scan = f"at {count} speeds from {bounds[0]:g} to {bounds[1]:g} rad/s"
     remarks += _remarks(horizon, values["critical_speed"], bounds[0], scan)
     own = {"horizon": horizon, "crossing_number": range(MOST_CROSSINGS)}
-    message = "; ".join(remarks)
-    answer = found("critical_speed", values, message, **own, scan_Omega=lattice[::ratio])
+    answer = found("critical_speed", values, *remarks, **own, scan_Omega=lattice[::ratio])
     return answer.assign(at_lower_bound=answer["critical_speed"] <= bounds[0])
 
 

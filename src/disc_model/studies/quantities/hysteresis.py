@@ -89,8 +89,8 @@ def hysteresis(
             values[variable][place] = stay[variable]
     onset, offset = _edges(swept, values)
     values |= {"status": status, "onset_speed": onset, "offset_speed": offset}
-    message = failure or "; ".join(_reasons(swept, values))
-    return found("hysteresis", values, message, direction=DIRECTIONS, sweep_Omega=swept)
+    remarks = [failure] if failure else _reasons(swept, values)
+    return found("hysteresis", values, *remarks, direction=DIRECTIONS, sweep_Omega=swept)
 
 
 def _edges(swept: Sequence[float], values: Row) -> tuple[float, float]:

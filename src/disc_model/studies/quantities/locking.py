@@ -83,7 +83,6 @@ def locking(
         if lock or values["motion"] != "undecided" or 2 * record > max_record:
             break
         record *= 2
-    values["status"] = "ok"
     message = ""
     if lock and multipliers:
         proof = _proof(run, lock)

@@ -111,7 +111,6 @@ def outcome(
         case, horizon, start, evaluation_time, after_separation, early_end, tol
     )
     values: Row = {
-        "status": "ok",
         "outcome": reached.word,
         "first_separation": reached.timed_separation,
         "time_reached": reached.time,

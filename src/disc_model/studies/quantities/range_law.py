@@ -88,7 +88,7 @@ def range_law(
             row |= _measure(run)
             row["earlier_range"] = np.ptp(before["earlier"]["u"].values)
         rows.append(row)
-    return found("range_law", {"status": "ok", **listed(rows)}, begin=("static", "displaced"))
+    return found("range_law", listed(rows), begin=("static", "displaced"))
 
 
 def _measure(run: Result) -> Row:

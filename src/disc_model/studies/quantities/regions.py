@@ -58,7 +58,7 @@ def regions(
     followed: NearCycle | None = None
     if isinstance(start, NearCycle) and start.follows_cycle:
         followed = start
-    values: Row = {"status": "ok", "method": "multipliers"}
+    values: Row = {"method": "multipliers"}
     message = ""
     if followed and followed.cycle.stable:
         values["outcome"] = Outcome.STICK_SLIP

@@ -74,6 +74,6 @@ def sliding_modes(
         else:
             messages.append(f"{value_with_unit(name, values[i])}: {sliding.message}")
         rows.append(row)
-    answer = {"status": "ok", "n_modes": n_modes, **columns, **listed(rows)}
+    answer = {"n_modes": n_modes, **columns, **listed(rows)}
     numbered = np.arange(1, modes + 1)
-    return found("sliding_modes", answer, "".join(messages[:1]), value=values, mode=numbered)
+    return found("sliding_modes", answer, *messages[:1], value=values, mode=numbered)
