@@ -12,10 +12,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 import numpy as np
 from xarray import Dataset
 
-from disc_model.data.variables import OF_QUANTITIES, value_with_unit
+from disc_model.data.variables import value_with_unit
 from disc_model.display import counted
 from disc_model.parameters import Parameters
-from disc_model.studies.quantities.hysteresis import DIRECTIONS, STAYS
+from disc_model.studies.quantities.hysteresis import DIRECTIONS, STAYS, Stays, by_place
 from disc_model.studies.quantity import (
     BETWEEN,
     NUMERICAL,
@@ -91,10 +91,7 @@ def branches(
     from disc_model.stability.sliding import steady_sliding
 
     values = values_between(bounds, step)
-    columns = OF_QUANTITIES["branches"]["columns"]
-    swept = {}
-    for variable in ("sweep_range", "sweep_separation_rate", "sweep_settled"):
-        swept[variable] = columns[variable].empty((2, len(values)))
+    swept: Stays = {}
     family = Family(name, (values[0], values[-1]))
     remarks = []
     lowest = 0 if sweep_from is None else int(np.searchsorted(values, sweep_from))
@@ -103,10 +100,11 @@ def branches(
         if late is None:
             remarks.append(f"{value_with_unit(name, values[i])}: {result.message}")
             break
-        swept["sweep_range"][way, i] = late.range
-        swept["sweep_separation_rate"][way, i] = late.separation_rate
-        answer = reached.settling.answer
-        swept["sweep_settled"][way, i] = columns["sweep_settled"].flags.index(answer)
+        swept[way, i] = {
+            "sweep_range": late.range,
+            "sweep_separation_rate": late.separation_rate,
+            "sweep_settled": reached.settling.answer,
+        }
         if way == 0 or i < lowest:
             near_start = find_cycle(result.parameters)
             if near_start.state is not None:
@@ -116,7 +114,7 @@ def branches(
             family.follow(cycle, guess=cycle.state, releases=cycle.releases)
     found_values: Row = {
         **listed(family.rows),
-        **swept,
+        **by_place(swept, len(values)),
         "n_branches": len(family.rows),
         "n_continuation_failures": family.failures,
         "sliding_growth_rate": [
