@@ -144,10 +144,11 @@ def _dimensions(varied: Row, zipped: Mapping[Any, Any], over: Row) -> dict[str, 
     dims = {name: pd.DataFrame({name: _column(name, x)}) for name, x in varied.items()}
     dims |= {name: pd.DataFrame({name: pd.Series([*x], dtype=object)}) for name, x in over.items()}
     columns = {str(name): _column(str(name), x) for name, x in zipped.items()}
-    rule = "must have columns of equal length"
-    require((len({*map(len, columns.values())}) <= 1, "zip", "", rule))
     if columns:
-        dims["_".join(columns)] = pd.DataFrame(columns)
+        try:
+            dims["_".join(columns)] = pd.DataFrame(columns)
+        except ValueError as error:  # of columns whose lengths differ
+            raise ParameterError(Fault(("zip",), "", str(error))) from None
     require((dims, "sweep", "", "needs values that vary, such as Omega=[10, 12]"))
     return dims
 

@@ -13,7 +13,6 @@ import numpy as np
 from xarray import Dataset
 
 from disc_model.data.variables import value_with_unit
-from disc_model.display import counted
 from disc_model.parameters import Parameters
 from disc_model.studies.quantities.hysteresis import DIRECTIONS, STAYS, Stays, by_place
 from disc_model.studies.quantity import (
@@ -123,9 +122,6 @@ def branches(
     }
     if remarks:
         found_values["status"] = "failed"
-    if family.left_out:
-        cycles = counted(family.left_out, "cycle")
-        remarks.append(f"{cycles} of further branches, for which there is no room")
     own: Row = {"branch": range(MOST_BRANCHES), "branch_point": range(2 * MOST_POINTS)}
     own |= {"direction": DIRECTIONS, "sweep_value": values}
     return found("branches", found_values, *remarks, **own)
@@ -137,14 +133,13 @@ class Family:
 
     name, ends : of the number, and between which values
     rows : columns of each stretch of a branch
-    failures, left_out : cycles that could not be continued, and those for which there was no room
+    failures : number of cycles that could not be continued
     """
 
     name: str
     ends: tuple[float, float]
     rows: list[Row] = field(default_factory=list)
     failures: int = 0
-    left_out: int = 0
 
     def follow(self, cycle: FloquetResult, **how: Any) -> None:
         """Continue a cycle in both directions, unless a known branch passes there."""
@@ -156,9 +151,6 @@ class Family:
         low, high = extremes_of_cycle(case, cycle.state, cycle.period)
         value = case.numbers[self.name]
         if any(_passes(row, value, cycle.period, high - low) for row in self.rows):
-            return
-        if len(self.rows) >= MOST_BRANCHES:
-            self.left_out += 1
             return
         # leaves room for special points between those computed: as a step turns by 26 degrees at most, at least six
         # lie from fold to fold; with other bifurcations there is one among nine to eighteen points

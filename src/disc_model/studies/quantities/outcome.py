@@ -29,11 +29,11 @@ _TIMES = (
 def _late(
     case: Parameters,
     horizon: float,
-    start: Start,
-    evaluation_time: float,
-    after_separation: float,
-    early_end: bool,
-    tol: float,
+    start: Start = STATIC,
+    evaluation_time: float = 1.0,
+    after_separation: float = 5.0,
+    early_end: bool = True,
+    tol: float = 1e-10,
 ) -> tuple[OutcomeResult, Result | None, Segment | None]:
     """The outcome, the run beyond it, if any, and the late stretch."""
     from disc_model.simulation.starts import make_initial_state
@@ -56,9 +56,9 @@ def _late(
     return reached, *final_segment(case, on, duration, evaluation_time, tol)
 
 
-def come_to(case: Parameters, *args: Any, **options: Any) -> State:
-    """The state that the motion has come to."""
-    reached, result, _ = _late(case, *args, **options)
+def come_to(case: Parameters, *, timed: Any = None, **options: Any) -> State:
+    """The state that the motion has come to, for options of `outcome` or of `regions`."""
+    reached, result, _ = _late(case, **options)
     state = reached.state
     if last := reached.failed or result:
         state = last.raise_for_status().final_state
