@@ -118,7 +118,8 @@ def _in_one(present: Mapping[int, xr.Variable], count: int, column: Variable | N
     else:
         array = np.full(shape, np.nan)
     for i, each in zip(present, values, strict=True):
-        array[(i, *map(slice, each.shape))] = each
+        cells: Any = (i, *map(slice, each.shape))
+        array[cells] = each
     return array
 
 

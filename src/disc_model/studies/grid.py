@@ -79,7 +79,9 @@ def _columns_of(group: Any) -> dict[str, Sequence[Any]]:
     return columns
 
 
-def expand(dims: Dims, where: str = "", beside: Row = MappingProxyType({})) -> pd.DataFrame:
+def expand(
+    dims: Dims, where: str = "", beside: Mapping[str, Any] = MappingProxyType({})
+) -> pd.DataFrame:
     """The points of a grid, a row each, from the columns along each dimension, of which the last one varies
     first; the index counts also those that are left out.
 
@@ -98,7 +100,8 @@ def expand(dims: Dims, where: str = "", beside: Row = MappingProxyType({})) -> p
     if where:
         constant = {name: x for name, x in beside.items() if name not in points}
         try:
-            points = points[points.eval(where, resolvers=[constant])]
+            kept: Any = points.eval(where, resolvers=[constant])
+            points = points[kept]
         except Exception as error:  # whatever pandas makes of a text
             rule = f"must compare values of points: {error}"
             raise ParameterError(Fault.of(("where",), where, rule)) from None

@@ -111,7 +111,9 @@ def _checked_arguments(function: Callable[..., Any], case: Parameters, given: Ro
     except TypeError as error:
         known = [*signature.parameters, *Parameters.model_fields]
         rule = "is no number of the case, and no argument of the function"
-        unknown = [Fault((x,), "", rule + suggestion(x, known)) for x in given if x not in known]
+        unknown: list[Any] = [
+            Fault((x,), "", rule + suggestion(x, known)) for x in given if x not in known
+        ]
         raise ParameterError(*(unknown or [str(error)])) from None
     bound.apply_defaults()
     return {x: y for x, y in bound.arguments.items() if isinstance(y, bool | int | float | str)}
