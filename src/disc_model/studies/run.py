@@ -9,7 +9,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import pandas as pd
 import xarray as xr
@@ -26,9 +26,6 @@ from disc_model.studies.compute import Call, Map, compute, stack
 from disc_model.studies.grid import VARIED, Points, case_of
 from disc_model.studies.motions import history_from
 from disc_model.studies.quantity import Row, found, quantity_of
-
-if TYPE_CHECKING:
-    from disc_model.studies.study import Study
 
 POINT = "point"
 log = logging.getLogger(__name__)
@@ -177,18 +174,16 @@ def run_study(
     folder = Path() if isinstance(source, Mapping) else Path(source).parent
     study = parse_study(dict(source)) if isinstance(source, Mapping) else load_study(source)
     grids, names = study.all_grids([folder])
-    datasets: Row = {name: _run_grid(grids[name], map, progress) for name in names}
+    datasets: Row = {}
+    for name in names:
+        grid = grids[name]
+        points: Points = grid.points.to_dict("records")
+        call = call_of(grid.layout)
+        results = compute(call, points, map=map, title=call.quantity, progress=progress)
+        datasets[name] = merge(grid.layout, results, grid.attrs)
     if study.cases:
         trees = dict(zip(study.cases, map(run_case, study.cases.values()), strict=True))
         datasets["cases"] = xr.DataTree(children=trees)
     if len(datasets) == 1:
         return next(iter(datasets.values()))
     return xr.DataTree.from_dict(datasets)
-
-
-def _run_grid(study: Study, map: Map, progress: bool) -> Dataset:
-    """The grid of a study, whose points are computed here."""
-    points: Points = study.points.to_dict("records")
-    call = call_of(study.layout)
-    results = compute(call, points, map=map, title=study.of.name, progress=progress)
-    return merge(study.layout, results, study.attrs)

@@ -221,14 +221,13 @@ class Study(Strict):
         last point, if none is."""
         base = {**self.of.unset(self.options), **self._base}
         own = self.points.drop(columns=[*PERTURBATIONS], errors="ignore")
-        faults: Sequence[Fault] = ()
+        wrong = ParameterError()
         for point in own.to_dict("records"):
             try:
                 return case_of(base, self.discs, **{str(name): x for name, x in point.items()})
             except ParameterError as error:
-                faults = error.faults
-        axes = [fault.inside(("axes",)) for fault in faults if fault.path[0] in self._varied]
-        raise ParameterError(*(axes or [fault.inside(("base",)) for fault in faults]))
+                wrong = error
+        raise wrong
 
     @cached_property
     def fixed(self) -> Content:
