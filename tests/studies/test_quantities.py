@@ -309,30 +309,20 @@ def test_what_has_no_room_is_told() -> None:
 
 LOST: Any = SimpleNamespace(status=Status.NON_FINITE, message="lost")
 SWEEPS = [
-    # separation rates up and down, onset, offset, what is said
-    ([[0, 0, 0], [0, 0, 0]], math.nan, math.nan, "kept from Omega = 12 rad/s to Omega = 16 rad/s"),
-    (
-        [[0, 0, 9], [9, 9, 9]],
-        16,
-        math.nan,
-        "still lost on the way down at the lower bound, Omega = 12 rad/s",
-    ),
-    (
-        [[9, 9, 9], [0, 9, 9]],
-        math.nan,
-        14,
-        "lost on the way up from the lower bound on, Omega = 12 rad/s",
-    ),
-    ([[0, 9, 0], [0, 0, 0]], 14, math.nan, "kept at Omega = 16 rad/s, where the way down begins"),
-    ([[0, 0, 9], [0, 9, 9]], 16, 14, ""),
-    ([[0, 0, 9], [9, 0, 9]], 16, 16, ""),  # a gap ends it, though it begins again below
-    ([[0, 0, 9], [None, 9, 9]], 16, math.nan, "Omega = 12 rad/s: lost"),
+    # separation rates up and down, onset, offset
+    ([[0, 0, 0], [0, 0, 0]], math.nan, math.nan),
+    ([[0, 0, 9], [9, 9, 9]], 16, math.nan),
+    ([[9, 9, 9], [0, 9, 9]], math.nan, 14),
+    ([[0, 9, 0], [0, 0, 0]], 14, math.nan),
+    ([[0, 0, 9], [0, 9, 9]], 16, 14),
+    ([[0, 0, 9], [9, 0, 9]], 16, 16),  # a gap ends it, though it begins again below
+    ([[0, 0, 9], [None, 9, 9]], 16, math.nan),
 ]
 
 
-@pytest.mark.parametrize(("rates", "onset", "offset", "said"), SWEEPS)
-def test_a_sweep_has_an_onset_and_an_end_or_says_why_not(
-    rates: list[list[Any]], onset: float, offset: float, said: str, monkeypatch: pytest.MonkeyPatch
+@pytest.mark.parametrize(("rates", "onset", "offset"), SWEEPS)
+def test_a_sweep_has_an_onset_and_an_end_between_its_bounds(
+    rates: list[list[Any]], onset: float, offset: float, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def sweep(*_: Any) -> Iterator[Any]:
         settled = attractors.Arrival(Settling(Settled.SETTLED))
@@ -345,8 +335,8 @@ def test_a_sweep_has_an_onset_and_an_end_or_says_why_not(
     found = dm.hysteresis(P, (12, 16), 10, step=2)
     assert found["onset_speed"].item() == pytest.approx(onset, nan_ok=True)
     assert found["offset_speed"].item() == pytest.approx(offset, nan_ok=True)
-    assert said in message_of(found)
-    assert bool(message_of(found)) == bool(said)
+    failed = "Omega = 12 rad/s: lost" if None in rates[1] else ""
+    assert message_of(found) == failed
 
 
 # ---- Basins

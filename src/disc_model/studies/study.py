@@ -369,7 +369,7 @@ class Study(Strict):
                 if isinstance(plot, CasePlot):
                     entries[study.study, name] = study._entry_of_cases(name, plot)
                 elif isinstance(plot, Plot):
-                    shown = grids[plot.study or study.study]
+                    shown = grids.get(plot.study, study)
                     entries[study.study, name] = shown._entry(name, plot)
         return entries
 

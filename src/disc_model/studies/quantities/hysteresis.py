@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import asdict
 
 import numpy as np
@@ -54,9 +54,9 @@ def hysteresis(
     -------
     xarray.Dataset
         `onset_speed`, `offset_speed` (rad/s): the first speed with separation on the way up, and the lowest one to
-        which it persists on the way down. They are nan where the bounds do not show them; `message` says why, and
-        whether motions in contact had not settled (`sweep_settled`): the onset may then be lower. `separation_rate`
-        (1/s), `stay` (s) and others by direction and speed.
+        which it persists on the way down. They are nan where the bounds do not show them, as where separation begins at
+        the lowest speed; `message` says whether motions in contact had not settled (`sweep_settled`): the onset may
+        then be lower. `separation_rate` (1/s), `stay` (s) and others by direction and speed.
 
     Examples
     --------
@@ -86,12 +86,10 @@ def hysteresis(
     rates = np.array(values["separation_rate"], dtype=float)
     onset, offset = _edges(swept, rates)
     values |= {"status": status, "onset_speed": onset, "offset_speed": offset}
-    if not remarks:
-        remarks = [*_reasons(swept, rates)]
-        settled = np.array(values["sweep_settled"]) == "settled"
-        if doubtful := int(((rates == 0) & ~settled).sum()):
-            after = f"after {counted(doubtful, 'stay')}"
-            remarks.append(f"{after} the motion in contact had not settled: raise max_dwell")
+    settled = np.array(values["sweep_settled"]) == "settled"
+    if doubtful := int(((rates == 0) & ~settled).sum()):
+        after = f"after {counted(doubtful, 'stay')}"
+        remarks.append(f"{after} the motion in contact had not settled: raise max_dwell")
     return found("hysteresis", values, *remarks, direction=DIRECTIONS, sweep_Omega=swept)
 
 
@@ -115,23 +113,6 @@ def _edges(swept: Sequence[float], rates: np.ndarray) -> tuple[float, float]:
     if falling[-1] and quiet.size and not np.isnan(rates[1, quiet[-1]]):
         offset = swept[quiet[-1] + 1]
     return onset, offset
-
-
-def _reasons(swept: Sequence[float], rates: np.ndarray) -> Iterator[str]:
-    """Why a sweep up and down has no onset or no end of separation."""
-    lowest, highest = (value_with_unit("Omega", value) for value in (swept[0], swept[-1]))
-    rising, falling = rates > 0
-    if not (rates > 0).any():
-        yield f"contact is kept from {lowest} to {highest}"
-        return
-    if rising[0]:
-        yield f"contact is lost on the way up from the lower bound on, {lowest}"
-    elif not rising.any():
-        yield f"contact is kept on the way up to {highest}"
-    if falling.all():
-        yield f"contact is still lost on the way down at the lower bound, {lowest}"
-    elif not falling[-1]:
-        yield f"contact is kept at {highest}, where the way down begins"
 
 
 def swept_speeds(sweep: xr.Dataset) -> tuple[xr.DataArray, xr.DataArray]:
