@@ -278,22 +278,16 @@ def test_every_crossing_is_found_and_bisected(
     assert found["simulated_time"] == 2 * found["simulations"] or math.isnan(speeds[0])
 
 
-CRITICAL = [
-    # horizon, speed of the first separation, what is said
-    (900, 16, "no separation within 900 s at 4 speeds from 12 to 15 rad/s"),
-    ([5, 900], 12, "contact is already lost within 900 s at the lower bound, 12 rad/s"),
-    (900, 13, ""),
-]
-
-
-@pytest.mark.parametrize(("horizon", "speed", "said"), CRITICAL)
-def test_a_critical_speed_that_is_not_between_the_bounds_says_why(
-    horizon: Any, speed: float, said: str, monkeypatch: pytest.MonkeyPatch
+@pytest.mark.parametrize(
+    ("horizon", "speed", "least"), [(900, 16, math.nan), ([5, 900], 12, 12), (900, 13, 13)]
+)
+def test_a_critical_speed_may_be_the_lowest_of_the_scan_or_missing(
+    horizon: Any, speed: float, least: float, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("disc_model.stability.follower.find_outcome", moving({speed: 10.0}))
     found = dm.critical_speed(P, (12, 15), horizon)
-    assert message_of(found).endswith(said)
-    assert bool(message_of(found)) == bool(said)
+    assert message_of(found) == ""
+    assert found["critical_speed"].values.ravel()[-1] == pytest.approx(least, nan_ok=True)
     assert found["critical_speed"].ndim == np.ndim(horizon)
     assert bool(found["at_lower_bound"].values.any()) == (speed == 12)
 

@@ -148,7 +148,7 @@ def _common_coordinates(
     coords: dict[Any, xr.Variable] = {}
     differing = set()
     for result in results:
-        for name in result.indexes:  # in a fixed order: files are equal to the byte
+        for name in map(str, result.indexes):  # in a fixed order: files are equal to the byte
             own = result.variables[name]
             if not own.equals(coords.setdefault(name, own)):
                 differing.add(name)

@@ -91,7 +91,7 @@ def critical_speed(
         `critical_speed` (rad/s, nan if none was found in steps of the scan) and crossings, by horizon where a list is
         given; outcomes and first separations along the scan. Contact was lost at the critical speed, and kept at the
         next lower one computed, which is lower by `precision`; where it was lost at the lowest speed already,
-        `at_lower_bound` is true. `message` states which horizons have no critical speed, or one at the lower bound.
+        `at_lower_bound` is true.
 
     Examples
     --------
@@ -124,17 +124,7 @@ def critical_speed(
             look(middles)
     wrong = {i: result for i, result in motions.items() if result.status != "ok"}
     remarks = [f"{value_with_unit('Omega', lattice[i])}: {x.message}" for i, x in wrong.items()]
-    rows = []
-    for time in horizon:
-        row = _crossings(_lost(motions, time), lattice)
-        within = f"within {time:g} s"
-        if math.isnan(row["critical_speed"]):
-            scan = f"at {count} speeds from {bounds[0]:g} to {bounds[1]:g} rad/s"
-            remarks.append(f"no separation {within} {scan}")
-        elif row["critical_speed"] <= bounds[0]:
-            bound = f"at the lower bound, {bounds[0]:g} rad/s"
-            remarks.append(f"contact is already lost {within} {bound}")
-        rows.append(row)
+    rows = [_crossings(_lost(motions, time), lattice) for time in horizon]
     values: Row = {
         "status": next((result.status for result in wrong.values()), "ok"),
         "scan_outcome": [motions[i].word for i in scanned],
