@@ -232,7 +232,7 @@ class Plot(Kind):
                     number or key not in ("x", "y"),
                     key,
                     name,
-                    "must be one parameter, and a finite number",
+                    "must be one parameter, and a number that is finite",
                 ),
                 (len(along) <= MOST_VALUES or key != "by", key, name, many),
             )
