@@ -15,6 +15,7 @@ from scipy import stats
 
 import disc_model as dm
 from disc_model.analysis.classify import Settled, Settling
+from disc_model.analysis.contact_loss import excess_of_flights
 from disc_model.data.variables import OF_QUANTITIES, CycleStatus, Outcome
 from disc_model.errors import Status
 from disc_model.parameters import Parameters
@@ -141,10 +142,10 @@ TABLE: list[tuple[str, Parameters, dict[str, Any], dict[str, Any]]] = [
         {"range": [math.nan, 0.03517120], "deviation": [math.nan, 0.02223191]},
     ),
     (
-        "regions",  # just below two oscillations of 135.42 Hz
+        "regions",
         P.replace(N=100),
         {"horizon": 50},
-        {"cycle": "followed", "growth_rate": -0.0031225616, "period_ratio": 1.9058395},
+        {"cycle": "followed", "growth_rate": -0.0031225616},
     ),
 ]
 """Quantity, case, options, and values of variables, of which arrays may have more."""
@@ -277,22 +278,16 @@ def test_every_crossing_is_found_and_bisected(
     assert found["simulated_time"] == 2 * found["simulations"] or math.isnan(speeds[0])
 
 
-CRITICAL = [
-    # horizon, speed of the first separation, what is said
-    (900, 16, "no separation within 900 s at 4 speeds from 12 to 15 rad/s"),
-    ([5, 900], 12, "contact is already lost within 900 s at the lower bound, 12 rad/s"),
-    (900, 13, ""),
-]
-
-
-@pytest.mark.parametrize(("horizon", "speed", "said"), CRITICAL)
-def test_a_critical_speed_that_is_not_between_the_bounds_says_why(
-    horizon: Any, speed: float, said: str, monkeypatch: pytest.MonkeyPatch
+@pytest.mark.parametrize(
+    ("horizon", "speed", "least"), [(900, 16, math.nan), ([5, 900], 12, 12), (900, 13, 13)]
+)
+def test_a_critical_speed_may_be_the_lowest_of_the_scan_or_missing(
+    horizon: Any, speed: float, least: float, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("disc_model.stability.follower.find_outcome", moving({speed: 10.0}))
     found = dm.critical_speed(P, (12, 15), horizon)
-    assert message_of(found).endswith(said)
-    assert bool(message_of(found)) == bool(said)
+    assert message_of(found) == ""
+    assert found["critical_speed"].values.ravel()[-1] == pytest.approx(least, nan_ok=True)
     assert found["critical_speed"].ndim == np.ndim(horizon)
     assert bool(found["at_lower_bound"].values.any()) == (speed == 12)
 
@@ -308,30 +303,20 @@ def test_what_has_no_room_is_told() -> None:
 
 LOST: Any = SimpleNamespace(status=Status.NON_FINITE, message="lost")
 SWEEPS = [
-    # separation rates up and down, onset, offset, what is said
-    ([[0, 0, 0], [0, 0, 0]], math.nan, math.nan, "kept from Omega = 12 rad/s to Omega = 16 rad/s"),
-    (
-        [[0, 0, 9], [9, 9, 9]],
-        16,
-        math.nan,
-        "still lost on the way down at the lower bound, Omega = 12 rad/s",
-    ),
-    (
-        [[9, 9, 9], [0, 9, 9]],
-        math.nan,
-        14,
-        "lost on the way up from the lower bound on, Omega = 12 rad/s",
-    ),
-    ([[0, 9, 0], [0, 0, 0]], 14, math.nan, "kept at Omega = 16 rad/s, where the way down begins"),
-    ([[0, 0, 9], [0, 9, 9]], 16, 14, ""),
-    ([[0, 0, 9], [9, 0, 9]], 16, 16, ""),  # a gap ends it, though it begins again below
-    ([[0, 0, 9], [None, 9, 9]], 16, math.nan, "Omega = 12 rad/s: lost"),
+    # separation rates up and down, onset, offset
+    ([[0, 0, 0], [0, 0, 0]], math.nan, math.nan),
+    ([[0, 0, 9], [9, 9, 9]], 16, math.nan),
+    ([[9, 9, 9], [0, 9, 9]], math.nan, 14),
+    ([[0, 9, 0], [0, 0, 0]], 14, math.nan),
+    ([[0, 0, 9], [0, 9, 9]], 16, 14),
+    ([[0, 0, 9], [9, 0, 9]], 16, 16),  # a gap ends it, though it begins again below
+    ([[0, 0, 9], [None, 9, 9]], 16, math.nan),
 ]
 
 
-@pytest.mark.parametrize(("rates", "onset", "offset", "said"), SWEEPS)
-def test_a_sweep_has_an_onset_and_an_end_or_says_why_not(
-    rates: list[list[Any]], onset: float, offset: float, said: str, monkeypatch: pytest.MonkeyPatch
+@pytest.mark.parametrize(("rates", "onset", "offset"), SWEEPS)
+def test_a_sweep_has_an_onset_and_an_end_between_its_bounds(
+    rates: list[list[Any]], onset: float, offset: float, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def sweep(*_: Any) -> Iterator[Any]:
         settled = attractors.Arrival(Settling(Settled.SETTLED))
@@ -344,8 +329,8 @@ def test_a_sweep_has_an_onset_and_an_end_or_says_why_not(
     found = dm.hysteresis(P, (12, 16), 10, step=2)
     assert found["onset_speed"].item() == pytest.approx(onset, nan_ok=True)
     assert found["offset_speed"].item() == pytest.approx(offset, nan_ok=True)
-    assert said in message_of(found)
-    assert bool(message_of(found)) == bool(said)
+    failed = "Omega = 12 rad/s: lost" if None in rates[1] else ""
+    assert message_of(found) == failed
 
 
 # ---- Basins
@@ -447,39 +432,23 @@ def test_starts_of_which_nothing_is_known_are_told(
 
 SPEEDS = np.linspace(8, 12, 401)
 MEETING = 10.0  # rad/s, where the stick-slip frequency of 10 Omega meets the mode of 100 Hz
-PEAK = -0.2 + 0.1 / (1 + ((SPEEDS - MEETING) / 0.02) ** 2)
-GAP = np.abs(SPEEDS - MEETING - 0.05) < 0.015
-LEVEL = np.full(401, -0.1)
 NOWHERE = np.full(401, math.nan)
-MADE_UP: list[tuple[dict[str, Any], dict[str, Any], list[tuple[float, float, str]]]] = [
-    # growth rate of the cycle and of the mode, and frequencies; options; crossings: speed, multiple, effect
-    ({}, {}, [(10, 1, "rises")]),
-    ({"rate": 0.09 * PEAK, "of_mode": 0.09 * PEAK}, {}, [(10, 1, "no_rise")]),
-    ({"rate": PEAK + 0.15, "of_mode": PEAK + 0.15}, {}, [(10, 1, "destabilises")]),
-    ({"rate": LEVEL}, {}, [(10, 1, "mode_rises")]),
-    ({"rate": LEVEL, "of_mode": LEVEL}, {}, [(10, 1, "no_rise")]),
-    ({"rate": 0.2 * (SPEEDS - 11), "of_mode": LEVEL}, {}, [(10, 1, "no_rise")]),
-    ({"rate": np.where(GAP, math.nan, PEAK)}, {}, [(10, 1, "no_cycle")]),
-    ({"near": np.where(GAP, 0.0, math.nan)}, {}, [(10, 1, "not_near")]),
-    ({"of_mode": NOWHERE}, {}, [(10, 1, "unresolved")]),
-    ({}, {"step": 0.2}, [(10, 1, "unresolved")]),
-    ({}, {"bounds": (9.95, 12)}, [(10, 1, "beyond_scan")]),
-    ({"releases": 20 * SPEEDS}, {}, [(10, 0.5, "rises")]),
-    ({"releases": 4 * SPEEDS - 0.01}, {}, [(8.335833, 3, "no_rise"), (10.0025, 2.5, "rises")]),
+MADE_UP: list[tuple[dict[str, Any], list[tuple[float, float]]]] = [
+    # frequencies, and whether the motion is near the cycle; crossings: speed, multiple
+    ({}, [(10, 1)]),
+    ({"releases": 20 * SPEEDS}, [(10, 0.5)]),
+    ({"releases": 4 * SPEEDS - 0.01}, [(8.335833, 3), (10.0025, 2.5)]),
     # none within a gap, nor where the frequency jumps over that of the mode
-    ({"near": np.where(np.abs(SPEEDS - MEETING) < 0.055, 0.0, math.nan)}, {}, []),
-    ({"releases": np.where(SPEEDS < MEETING - 0.005, 9 * SPEEDS, 11 * SPEEDS)}, {}, []),
+    ({"near": np.where(np.abs(SPEEDS - MEETING) < 0.055, 0.0, math.nan)}, []),
+    ({"releases": np.where(SPEEDS < MEETING - 0.005, 9 * SPEEDS, 11 * SPEEDS)}, []),
 ]
 
 
-@pytest.mark.parametrize(("made", "options", "crossings"), MADE_UP)
-def test_crossings_are_where_frequencies_meet_and_say_what_growth_does_there(
-    made: dict[str, Any],
-    options: dict[str, Any],
-    crossings: list[tuple[float, float, str]],
-    monkeypatch: pytest.MonkeyPatch,
+@pytest.mark.parametrize(("made", "crossings"), MADE_UP)
+def test_crossings_are_where_frequencies_meet(
+    made: dict[str, Any], crossings: list[tuple[float, float]], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    at = {"rate": PEAK, "of_mode": PEAK, "releases": 10 * SPEEDS, "near": NOWHERE, **made}
+    at = {"releases": 10 * SPEEDS, "near": NOWHERE, **made}
     modes = SimpleNamespace(
         frequency=np.array([100.0]),
         growth_rate=np.array([-1.0]),
@@ -491,26 +460,23 @@ def test_crossings_are_where_frequencies_meet_and_say_what_growth_does_there(
         i = int(np.argmin(np.abs(SPEEDS - p.Omega)))
         cycle = SimpleNamespace(
             status=CycleStatus.OK,
-            growth_rate=at["rate"][i],
+            growth_rate=-0.1,
             releases=1,
             period=1 / at["releases"][i],
             sliding=SimpleNamespace(growth_rate=0.0),
             near=at["near"][i],
             message="",
         )
-        return cycle, modes, (np.array([100.0]), np.array([at["of_mode"][i]]), np.array([1.0]))
+        return cycle, modes, (np.array([100.0]), np.array([-0.1]), np.array([1.0]))
 
     monkeypatch.setattr("disc_model.stability.frequencies.frequencies", frequencies)
     monkeypatch.setattr("disc_model.stability.frequencies.may_be_near", lambda cycle: cycle.near)
-    found = dm.campbell(P, **{"bounds": (8, 12), "step": 0.01, **options})
+    found = dm.campbell(P, bounds=(8, 12), step=0.01)
     count = found["n_crossings"].item()
-    names = ("crossing_Omega", "crossing_multiple", "crossing_effect")
-    columns = (found[name].values[:count].tolist() for name in names)
-    for (speed, *rest), (expected, *others) in zip(
-        zip(*columns, strict=True), crossings, strict=True
-    ):
-        assert speed == pytest.approx(expected, abs=1e-6)
-        assert rest == others
+    names = ("crossing_Omega", "crossing_multiple")
+    speeds, multiples = (found[name].values[:count] for name in names)
+    assert speeds == pytest.approx([speed for speed, _ in crossings], abs=1e-6)
+    assert multiples.tolist() == [multiple for _, multiple in crossings]
 
 
 # ---- Sensitivity
@@ -611,20 +577,8 @@ def test_separation_holds_the_range_where_contact_is_lost(
     )
     assert 1e3 * found["range"].item() == pytest.approx(extent, rel=0.005)
     assert min(found["vibration_share"], found["force_share"]) >= 0.95
-    assert found["deviation"].item() == pytest.approx(found["flight_excess"].item(), abs=0.01)
-    if changes["Omega"] == 15.1:
-        # contact is lost at 0.98963 of the range, by its events; the next sample lies up to 0.011 above
-        assert 0.9896 <= found["loss_position"].item() <= 0.9896 + 0.011
-
-
-def test_the_rate_of_changes_is_that_of_the_last_ones(monkeypatch: pytest.MonkeyPatch) -> None:
-    times = np.array([0.0, 1, 2, 4, 8])
-    changes = 1e-3 * np.exp(-0.5 * times)
-    changes[0] = 1.0
-    reached = OutcomeResult(Outcome.UNDECIDED, 10.0, changes=[*changes], times=[*times])
-    monkeypatch.setattr("disc_model.stability.follower.find_outcome", lambda *_, **__: reached)
-    found = dm.outcome(P, 10, evaluation_time=0.05)
-    assert found["return_map_residual_rate"].item() == pytest.approx(-0.5)
+    flights = excess_of_flights(found["separation_fraction"].item())
+    assert found["deviation"].item() == pytest.approx(flights, abs=0.01)
 
 
 MOTIONS = [
@@ -690,10 +644,9 @@ def test_a_transient_is_doubled_until_the_motion_has_settled(
 
 @pytest.mark.compiled
 def test_columns_are_those_of_steady_sliding_at_each_value() -> None:
-    """With mu_k, mu_s rises where that would be larger."""
-    found = dm.sliding_modes(FALLING, name="mu_k", bounds=(0.1, 0.5), step=0.2)
-    for i, mu_k in enumerate((0.1, 0.3, 0.5)):
-        case = FALLING.replace(mu_k=mu_k, mu_s=max(mu_k, FALLING.mu_s))
+    found = dm.sliding_modes(FALLING, name="mu_k", bounds=(0.1, 0.3), step=0.1)
+    for i, mu_k in enumerate((0.1, 0.2, 0.3)):
+        case = FALLING.replace(mu_k=mu_k)
         sliding = dm.steady_sliding(case)
         assert found["largest_growth_rate"].values[i] == sliding.growth_rate
         upper = sliding.eigenvalues[sliding.eigenvalues.imag > 0]

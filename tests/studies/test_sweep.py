@@ -64,7 +64,7 @@ def test_words_missing_numbers_and_messages_where_a_point_fails() -> None:
         (lambda: dm.sweep(dm.floquet, CASE, Omega=12), "Omega list"),
         (lambda: dm.sweep(dm.floquet, CASE, Omega=["12 N"]), "Omega '12 N' rad/s"),
         (lambda: dm.sweep(dm.floquet, CASE), "vary"),
-        (lambda: dm.sweep(dm.floquet, CASE, zip={"N": [1], "Omega": [1, 2]}), "zip equal length"),
+        (lambda: dm.sweep(dm.floquet, CASE, zip={"N": [1], "Omega": [1, 2]}), "zip same length"),
         (lambda: dm.sweep(dm.floquet, 3, Omega=[1]), "case Parameters"),
         (lambda: dm.sweep(dm.floquet, CASE, Omega=[1], tol=7), "tol 7"),
         (lambda: dm.sweep(dm.floquet, CASE, N=[-1, -2]), "no point N=-1"),

@@ -42,7 +42,7 @@ def save(data: Any, path: str | Path) -> None:
         `Result` is written by its method `save`, to .nc, and read by its method `load`
     path : its suffix says how. ".nc": netCDF 4. ".csv": a table of pandas with a row for each point, units in the
         heads, such as "Omega (rad s-1)", and words for what stands as numbers in `data`. Numbers that stand along
-        fewer dimensions are repeated: choose some, as by ``data[["crossing_Omega", "crossing_effect"]]``. Tables are
+        fewer dimensions are repeated: choose some, as by ``data[["crossing_Omega", "crossing_multiple"]]``. Tables are
         for other programs: `load` reads none
 
     Returns

@@ -187,8 +187,6 @@ TAKEN = "must not be the name of a variable of results"
 """The rule that says so."""
 EXCLUDED = "excluded"
 """Status of points that a rule of the study leaves out."""
-TRUTH = {"comment": "1 for True, 0 for False, nan where there is neither"}
-"""Attributes of numbers that stand for True and False, since some are missing."""
 
 
 # ---- What variables are

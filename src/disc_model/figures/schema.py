@@ -5,6 +5,7 @@ the keys of a figure in a study file.
 """
 
 import inspect
+import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import Annotated, Any, ClassVar, Literal, NamedTuple, cast, get_type_hints
 
@@ -221,13 +222,18 @@ class Plot(Kind):
         taken: list[str] = []
         for key, name in (*(("kind", name) for name in self.shows.needs), *self.axes.items()):
             along = own.get(name, ())
-            number = not any(isinstance(value, str | tuple) for value in along)
+            number = not any(isinstance(x, str | tuple) or x == math.inf for x in along)
             lacking = f"needs the dimension {name}{suggestion(name, own)}"
             many = f"has {len(along)} values, and there is room for {MOST_VALUES}"
             faults += violations(
                 (name in {NORM, *own}, key, name, lacking),
                 (name not in taken, key, name, "must differ from the other dimensions"),
-                (number or key not in ("x", "y"), key, name, "must be one parameter, and a number"),
+                (
+                    number or key not in ("x", "y"),
+                    key,
+                    name,
+                    "must be one parameter, and a number that is finite",
+                ),
                 (len(along) <= MOST_VALUES or key != "by", key, name, many),
             )
             taken.append(name)

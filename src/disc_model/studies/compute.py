@@ -12,8 +12,7 @@ import numpy as np
 import xarray as xr
 from xarray import Dataset
 
-from disc_model.data.variables import PERTURBATIONS, TRUTH, Variable, attributes
-from disc_model.display import progress_bar
+from disc_model.data.variables import PERTURBATIONS, Variable, attributes
 from disc_model.parameters import Parameters
 from disc_model.studies.grid import VARIED, WORDS, Dims
 from disc_model.studies.quantity import NUMERICAL, Row, failed
@@ -69,13 +68,14 @@ def compute(
     title: str = "",
     progress: bool = False,
 ) -> list[Dataset]:
-    """The results at points; `map` may be that of an executor."""
-    results = []
-    with progress_bar(title, len(points), progress) as bar:
-        for result in map(call, points):
-            results.append(result)
-            bar.advance()
-    return results
+    """The results at points; `map` may be that of an executor, and `progress` shows a bar on standard error."""
+    results = map(call, points)
+    if progress:
+        from rich.console import Console
+        from rich.progress import track
+
+        results = track(results, title, total=len(points), console=Console(stderr=True))
+    return [*results]
 
 
 # ---- Stacking
@@ -97,23 +97,30 @@ def stack(
     variables: dict[str, xr.Variable] = {}
     for name in dict.fromkeys(chain.from_iterable(rows)):
         present = {i: row[name] for i, row in enumerate(rows) if name in row}
-        first, *_ = present.values()
-        shapes = {each.shape for each in present.values()}
-        shape = tuple(map(max, zip(*shapes, strict=True)))
-        if name in columns:
-            array = columns[name].empty((len(rows), *shape))
-        else:
-            whole = len(present) == len(rows) and len(shapes) == 1
-            array = _empty([each.dtype for each in present.values()], (len(rows), *shape), whole)
-        for i, each in present.items():
-            cells: Any = (i, *map(slice, each.shape))
-            array[cells] = each.values
-        attrs = dict(first.attrs)
-        if first.dtype.kind == "b" and array.dtype.kind == "f":
-            attrs |= TRUTH
-        stacked = array.reshape((*map(len, dims.values()), *shape))
-        variables[name] = xr.Variable((*dims, *first.dims), stacked, attrs)
+        first = next(iter(present.values()))
+        array = _in_one(present, len(rows), columns.get(name))
+        shape = (*map(len, dims.values()), *array.shape[1:])
+        variables[name] = xr.Variable((*dims, *first.dims), array.reshape(shape), first.attrs)
     return Dataset(variables, coords).assign_coords(_varied(dims))
+
+
+def _in_one(present: Mapping[int, xr.Variable], count: int, column: Variable | None) -> np.ndarray:
+    """The values of a variable at all points in one array, by those at points that have any, of which shorter
+    arrays are at the beginning."""
+    values = [each.values for each in present.values()]
+    shape = (count, *np.max([each.shape for each in values], axis=0))
+    if column is not None:
+        array: np.ndarray = column.empty(shape)
+    elif values[0].dtype.kind in "UO":
+        array = np.full(shape, "", np.result_type(*{each.dtype for each in values}))
+    elif len(values) == count and {each.shape for each in values} == {shape[1:]}:
+        return np.stack(values)  # whole numbers and truth stay what they are
+    else:
+        array = np.full(shape, np.nan)
+    for i, each in zip(present, values, strict=True):
+        cells: Any = (i, *map(slice, each.shape))
+        array[cells] = each
+    return array
 
 
 def _varied(dims: Dims) -> dict[str, Any]:
@@ -121,7 +128,7 @@ def _varied(dims: Dims) -> dict[str, Any]:
     coordinates = {}
     for dim, frame in dims.items():
         for name in map(str, frame):
-            values = ["plate" if value is None else value for value in frame[name]]
+            values = frame[name].tolist()
             if not all(isinstance(value, int | float | str) for value in values):
                 values = [*map(str, values)]
             attrs = {}
@@ -139,28 +146,14 @@ def _common_coordinates(
     """Coordinates along dimensions of the results' own, and the variables of each. A coordinate that
     differs between points is a variable along a dimension without one."""
     coords: dict[Any, xr.Variable] = {}
-    differing = {}
+    differing = set()
     for result in results:
-        for name in result.indexes:  # in a fixed order: files are equal to the byte
+        for name in map(str, result.indexes):  # in a fixed order: files are equal to the byte
             own = result.variables[name]
             if not own.equals(coords.setdefault(name, own)):
-                differing[name] = f"{name}_index"
-    for name in differing:
-        del coords[name]
+                differing.add(name)
     rows = []
     for result in results:
-        dims = {name: dim for name, dim in differing.items() if name in result.dims}
-        if dims:
-            result = result.rename_dims(dims)
-        rows.append({name: x for name, x in result.variables.items() if name not in coords})
-    return coords, rows
-
-
-def _empty(dtypes: Sequence[Any], shape: Sequence[int], whole: bool) -> np.ndarray:
-    """An array that holds values of these types; whole numbers and truth only if all values are there."""
-    dtype = np.result_type(*dtypes)
-    if dtype.kind in "UO":
-        return np.full(shape, "", dtype)
-    if whole:
-        return np.empty(shape, dtype)
-    return np.full(shape, np.nan)
+        free = result.rename_dims({x: f"{x}_index" for x in differing & {*result.dims}})
+        rows.append({x: y for x, y in free.variables.items() if x not in {*coords} - differing})
+    return {name: x for name, x in coords.items() if name not in differing}, rows

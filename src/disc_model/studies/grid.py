@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from functools import reduce
+from types import MappingProxyType
 from typing import Annotated, Any
 
-import numpy as np
 import pandas as pd
 from pydantic import BeforeValidator, Field, create_model
 
 from disc_model.data.variables import PERTURBATIONS
-from disc_model.errors import Fault, ParameterError
+from disc_model.errors import Fault, ParameterError, require
 from disc_model.parameters import NUMBER_OR_WORD, Parameters
 from disc_model.studies.quantity import Range, Row, listed_values
 from disc_model.units import Finite, Strict, Unit
@@ -60,10 +60,10 @@ def dimensions(axes: Any, zips: Sequence[Any]) -> dict[str, pd.DataFrame]:
     for i, each in enumerate(zips):
         columns = _columns_of(each)
         try:
-            frame = pd.DataFrame(columns).drop_duplicates().sort_values([*columns])
+            frame = pd.DataFrame(columns).drop_duplicates()
         except ValueError as error:  # of columns whose lengths differ
             raise ParameterError(Fault(("zip", str(i)), "", str(error))) from None
-        frames.append(frame.reset_index(drop=True))
+        frames.append(frame.sort_values([*columns], ignore_index=True))
     frames.sort(key=lambda frame: VARIED.index(frame.columns[0]))
     return {"_".join(map(str, frame)): frame for frame in frames}
 
@@ -79,24 +79,34 @@ def _columns_of(group: Any) -> dict[str, Sequence[Any]]:
     return columns
 
 
-def expand(dims: Dims) -> pd.DataFrame:
-    """All points of a grid, a row each, from the columns along each dimension; the last one varies first."""
-    return reduce(lambda above, below: above.merge(below, how="cross"), dims.values())
+def expand(
+    dims: Dims, where: str = "", beside: Mapping[str, Any] = MappingProxyType({})
+) -> pd.DataFrame:
+    """The points of a grid, a row each, from the columns along each dimension, of which the last one varies
+    first; the index counts also those that are left out.
 
+    Parameters
+    ----------
+    dims : what varies along each dimension, by its name
+    where : rule that points keep, such as ``mu_k <= mu_s`` (`pandas.DataFrame.eval`)
+    beside : values that do not vary, by names that the rule may have
 
-def keeps(points: pd.DataFrame, rules: Sequence[str], beside: Row) -> list[bool]:
-    """Which points keep all rules, such as ``mu_k <= mu_s`` (`pandas.DataFrame.eval`), of what varies and
-    of values beside it that do not; raises `ParameterError`."""
-    constant = {name: x for name, x in beside.items() if name not in points}
-    kept = np.ones(len(points), bool)
-    for rule in rules:
+    Raises
+    ------
+    ParameterError
+        If the rule cannot be read, or leaves no point.
+    """
+    points = reduce(lambda above, below: above.merge(below, how="cross"), dims.values())
+    if where:
+        constant = {name: x for name, x in beside.items() if name not in points}
         try:
-            answers: Any = points.assign(**constant).eval(rule)
-            kept &= answers.to_numpy(bool)
+            kept: Any = points.eval(where, resolvers=[constant])
+            points = points[kept]
         except Exception as error:  # whatever pandas makes of a text
-            told = f"must compare values of points: {error}"
-            raise ParameterError(Fault.of(("where",), rule, told)) from None
-    return kept.tolist()
+            rule = f"must compare values of points: {error}"
+            raise ParameterError(Fault.of(("where",), where, rule)) from None
+    require((len(points), "where", where, "leaves no point"))
+    return points
 
 
 def case_of(base: Row, discs: Row, **own: Any) -> Parameters:

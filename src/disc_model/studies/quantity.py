@@ -280,20 +280,20 @@ def failed(name: str, error: Exception) -> Dataset:
     return found(name, {"status": word}, told(error))
 
 
-def found(
-    name: str, values: Row, message: str | Sequence[str] = "", **own: Iterable[Any]
-) -> Dataset:
+def found(name: str, values: Row, *remarks: str, **own: Iterable[Any]) -> Dataset:
     """A dataset of what a quantity has found at a point.
 
     Parameters
     ----------
     name : of the quantity, whose variables the table has
     values : numbers, words, arrays, or lists of these along the first own dimension, by variable; those that
-        are not given, and the ends of too short lists, are missing
-    message : what there is to say; that something was cut is added. Several are along the first own dimension
+        are not given, and the ends of too short lists, are missing, and the status is ok
+    remarks : what the message says; that something was cut is added. Messages along the first own dimension
+        stand among the values
     own : values along the dimensions of its own; without them, only variables without dimensions are returned
     """
     coords = {dim: xr.Variable(dim, np.array([*along])) for dim, along in own.items()}
+    values = {"status": "ok", "message": joined(*remarks), **values}
     variables: Row = {}
     lengths: dict[str, int] = {}
     for key, column in OF_QUANTITIES[name]["columns"].items():
@@ -306,18 +306,17 @@ def found(
         room = coords[dim].size
         if length > room:
             cuts.append(f"{length} were found along {dim}, which has room for {room}")
-    if isinstance(message, str):
-        variables["message"] = ((), _with_cuts(message, cuts))
+    said = values["message"]
+    if isinstance(said, str):
+        variables["message"] = ((), joined(said, *cuts))
     else:
-        variables["message"] = (next(iter(coords)), [_with_cuts(text, cuts) for text in message])
+        variables["message"] = (next(iter(coords)), [joined(text, *cuts) for text in said])
     return Dataset(variables, coords)
 
 
-def _with_cuts(message: str, cuts: Sequence[str]) -> str:
-    """A message that also says what was cut."""
-    if not cuts:
-        return message
-    return "; ".join(filter(None, [message.removesuffix("."), *cuts]))
+def joined(*remarks: str) -> str:
+    """A message of remarks, each once, without those that are ""."""
+    return "; ".join(dict.fromkeys(filter(None, remarks)))
 
 
 def _store(value: Any, cell: np.ndarray, column: Variable, lengths: dict[str, int]) -> None:
@@ -340,20 +339,19 @@ def listed(rows: Sequence[Row]) -> dict[str, list[Any]]:
     return {name: [row.get(name) for row in rows] for name in names}
 
 
-def attempted(rows: Sequence[Row], fill: Callable[[int, Row], Iterable[str]]) -> list[str]:
-    """Messages of rows that a function fills in, one by one, while it yields remarks; those that end in an
-    error have failed."""
-    messages = []
-    for i, row in enumerate(rows):
+def attempted(rows: Sequence[Row], fill: Callable[[Row], Iterable[str]]) -> dict[str, list[Any]]:
+    """Columns of rows that a function fills in, one by one, while it yields remarks, which become their
+    messages; those that end in an error have failed."""
+    for row in rows:
         remarks = []
         try:
-            for remark in fill(i, row):
+            for remark in fill(row):
                 remarks.append(remark)
         except NUMERICAL as error:
             row["status"] = "failed"
             remarks.append(told(error))
-        messages.append("; ".join(dict.fromkeys(filter(None, remarks))))
-    return messages
+        row["message"] = joined(*remarks)
+    return listed(rows)
 
 
 def told(error: Exception) -> str:

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import json
 import logging
+import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import pandas as pd
 import xarray as xr
@@ -16,7 +17,7 @@ from xarray import Dataset
 
 from disc_model.data.coded import table_of
 from disc_model.data.dataset import CONVENTIONS
-from disc_model.data.variables import EXCLUDED, OF_QUANTITIES, Variable, described
+from disc_model.data.variables import EXCLUDED, OF_QUANTITIES, described
 from disc_model.parameters import Disc
 from disc_model.provenance import git_commit, physics_hash, versions_text
 from disc_model.simulation.named_case import run_case
@@ -24,9 +25,6 @@ from disc_model.studies.compute import Call, Map, compute, stack
 from disc_model.studies.grid import VARIED, Points, case_of
 from disc_model.studies.motions import history_from
 from disc_model.studies.quantity import Row, found, quantity_of
-
-if TYPE_CHECKING:
-    from disc_model.studies.study import Study
 
 POINT = "point"
 log = logging.getLogger(__name__)
@@ -57,10 +55,10 @@ def run_job(job: str, known: Iterable[Dataset] = ()) -> Dataset:
     points = layout["points"]
     there = {str(point): row for part in known for point, row in points_of(part)}
     missing = [point for point in points if str(point) not in there]
-    there |= zip(map(str, missing), compute(call_of(layout), missing), strict=True)
+    call = call_of(layout)
+    there |= zip(map(str, missing), compute(call, missing), strict=True)
     log.info("%d of %d points computed", len(missing), len(points))
-    rows = [there[str(point)] for point in points]
-    return _along_points(points, rows, quantity_of(layout["quantity"]).columns)
+    return _along_points(call, points, [there[str(point)] for point in points])
 
 
 def run_motions(job: str) -> Dataset:
@@ -71,23 +69,21 @@ def run_motions(job: str) -> Dataset:
     history = partial(history_from, motion.state)
     call = replace(call_of(layout), function=history, quantity="motions")
     points = layout["points"]
-    rows = compute(call, points)
-    return described(_along_points(points, rows, OF_QUANTITIES["motions"]["columns"]), "motions")
+    return described(_along_points(call, points, compute(call, points)), "motions")
 
 
-def _along_points(
-    points: Points, rows: Sequence[Dataset], columns: Mapping[str, Variable]
-) -> Dataset:
-    """Results in one dataset, with what varies as coordinates along `point`."""
+def _along_points(call: Call, points: Points, rows: Sequence[Dataset]) -> Dataset:
+    """Results of a call in one dataset, with what varies as coordinates along `point`."""
     frame = pd.DataFrame(points)
-    return stack(rows, {POINT: frame}, columns).assign_attrs(names=json.dumps([*frame]))
+    found = stack(rows, {POINT: frame}, OF_QUANTITIES[call.quantity]["columns"])
+    return found.assign_attrs(names=json.dumps([*frame]))
 
 
 def points_of(part: Dataset) -> Iterable[tuple[dict[Any, Any], Dataset]]:
     """The points of a job's results, and the result at each."""
     names = json.loads(part.attrs["names"])
-    results = part.drop_vars(names)
     points = pd.DataFrame({name: part[name].values for name in names}).to_dict("records")
+    results = part.drop_vars(names)
     for i, point in enumerate(points):
         yield point, results.isel(point=i)
 
@@ -102,27 +98,23 @@ def merge(layout: Layout, results: Sequence[Dataset], attrs: Mapping[str, str]) 
     results : at all points that are not left out, in the order of `Study.points`
     attrs : of the study
     """
-    quantity = quantity_of(layout["quantity"])
+    name = layout["quantity"]
     dims = {dim: pd.DataFrame(columns) for dim, columns in layout["dims"].items()}
-    left_out = found(quantity.name, {"status": EXCLUDED})
-    computed = iter(results)
-    every_point = [next(computed) if kept else left_out for kept in layout["kept"]]
-    study = stack(every_point, dims, quantity.columns)
-
-    def rank(dim: Any) -> int:
-        name = dims[dim].columns[0] if dim in dims else dim
-        return VARIED.index(name) if name in VARIED else len(VARIED)
-
-    every = {"Conventions": CONVENTIONS, **attrs, "quantity": quantity.name}
-    for name in ("options", "base", "discs"):
-        every[name] = json.dumps(layout[name], sort_keys=True)
+    rows = [found(name, {"status": EXCLUDED})] * math.prod(map(len, dims.values()))
+    for place, result in zip(layout["places"], results, strict=True):
+        rows[place] = result
+    study = stack(rows, dims, OF_QUANTITIES[name]["columns"])
+    first = {dim: frame.columns[0] for dim, frame in dims.items()}
+    ordered = sorted(study.dims, key=lambda dim: [*VARIED, dim].index(first.get(str(dim), dim)))
+    every = {"Conventions": CONVENTIONS, **attrs, "quantity": name}
+    for key in ("options", "base", "discs"):
+        every[key] = json.dumps(layout[key], sort_keys=True)
     every |= {
         "git_commit": git_commit(),
         "source_hash": physics_hash(),
         "versions": versions_text(),
     }
-    ranked = study.transpose(*sorted(study.dims, key=rank)).assign_attrs(every)
-    return described(ranked, quantity.name, layout["options"])
+    return described(study.transpose(*ordered).assign_attrs(every), name, layout["options"])
 
 
 # ---- Points of which there is something to say
@@ -181,18 +173,16 @@ def run_study(
     folder = Path() if isinstance(source, Mapping) else Path(source).parent
     study = parse_study(dict(source)) if isinstance(source, Mapping) else load_study(source)
     grids, names = study.all_grids([folder])
-    datasets: Row = {name: _run_grid(grids[name], map, progress) for name in names}
+    datasets: Row = {}
+    for name in names:
+        grid = grids[name]
+        points: Points = grid.points.to_dict("records")
+        call = call_of(grid.layout)
+        results = compute(call, points, map=map, title=call.quantity, progress=progress)
+        datasets[name] = merge(grid.layout, results, grid.attrs)
     if study.cases:
         trees = dict(zip(study.cases, map(run_case, study.cases.values()), strict=True))
         datasets["cases"] = xr.DataTree(children=trees)
     if len(datasets) == 1:
         return next(iter(datasets.values()))
     return xr.DataTree.from_dict(datasets)
-
-
-def _run_grid(study: Study, map: Map, progress: bool) -> Dataset:
-    """The grid of a study, whose points are computed here."""
-    points: Points = study.points.to_dict("records")
-    call = call_of(study.layout)
-    results = compute(call, points, map=map, title=study.of.name, progress=progress)
-    return merge(study.layout, results, study.attrs)

@@ -31,7 +31,7 @@ from disc_model.figures.shown import IN_WORDS, factors_of
 from disc_model.parameters import DEFAULTS, Disc, Parameters
 from disc_model.provenance import content_key, physics_hash
 from disc_model.simulation.case import CaseSpec, Name, RecordSpec, SomeParameters, without_null
-from disc_model.studies.grid import Columns, case_of, dimensions, expand, keeps
+from disc_model.studies.grid import Columns, case_of, dimensions, expand
 from disc_model.studies.quantity import HOMES, Quantity, quantity_of
 from disc_model.units import Size, Strict, Tolerance
 
@@ -41,10 +41,10 @@ GRID_KEYS = frozenset({"options", "axes", "zip", "where", "points_per_job", "dis
 
 
 class StudyError(ParameterError):
-    """A study file that breaks rules; `faults` are all of them, each once, as ``path=value: rule``."""
+    """A study file that breaks rules; `faults` are all of them, as ``path=value: rule``."""
 
     def __init__(self, *faults: Fault | str, source: str = "study") -> None:
-        super().__init__(*dict.fromkeys(faults))
+        super().__init__(*faults)
         head = f"{source}: {counted(len(self.faults), 'fault')}"
         self.args = ("\n  ".join([head, *map(str, self.faults)]),)
 
@@ -159,51 +159,24 @@ class Study(Strict):
         tuple[Columns, ...],
         BeforeValidator(_several, json_schema_input_type=Columns | list[Columns]),
     ] = ()
-    where: Annotated[
-        tuple[str, ...], BeforeValidator(_several, json_schema_input_type=str | list[str])
-    ] = ()  # rules that points keep, such as mu_k <= mu_s
+    where: str = ""  # a rule that points keep, such as mu_k <= mu_s
     points_per_job: Size | None = None
     discs: dict[str, Annotated[Disc, WithJsonSchema({"type": "string"})]] = Field({})
     studies: tuple[str, ...] = ()  # further files of grid studies, * stands for any part of a name
 
     @pydantic.model_validator(mode="after")
     def _consistent(self) -> Self:
-        """Check the rules between the parts of the file."""
+        """Check the rules between the parts of the file, but for those of figures."""
         given = self.model_fields_set
         alone = not given & GRID_KEYS and given & {"cases", "studies"}
         rule = "is required, unless the file has cases or studies alone"
-        require((self.has_grid or alone, "quantity", "", rule))
-        if self.has_grid:
+        require((self.quantity or alone, "quantity", "", rule))
+        if self.quantity:
             raise_faults([*self._wrong_axes()])
             self.case  # noqa: B018
-        recorded = {name: spec.longest_sections for name, spec in self.cases.items()}
-        faults = []
-        for name, plot in self.figures.items():
-            wrong: Iterable[Fault] = ()
-            if isinstance(plot, CasePlot):
-                wrong = plot.faults(recorded)
-            elif self.has_grid and isinstance(plot, Plot) and plot.study in ("", self.study):
-                wrong = self._faults_of(plot)
-            faults += [fault.inside(("figures", name)) for fault in wrong]
-        raise_faults(faults)
         return self
 
-    # ---- Named cases
-
-    @property
-    def labels(self) -> dict[str, dict[str, str]]:
-        """Titles and places in the paper of the cases, as pages show them."""
-        return {
-            name: {"Title": case.title or name, "Place in the paper": case.reference}
-            for name, case in self.cases.items()
-        }
-
     # ---- The grid
-
-    @property
-    def has_grid(self) -> bool:
-        """Whether the file has a grid of its own."""
-        return bool(self.quantity)
 
     @property
     def of(self) -> Quantity:
@@ -226,24 +199,11 @@ class Study(Strict):
         if not self.dims:
             yield Fault(("axes",), "", "is required: at least one axis or zip")
         for name in dict.fromkeys(self._varied):
+            place = ("axes", name)
             if self._varied.count(name) > 1:
-                yield Fault(
-                    ("axes", name), "", "varies twice: in another place, or by the quantity"
-                )
+                yield Fault(place, "", "varies twice: in another place, or by the quantity")
             if name in PERTURBATIONS and not hasattr(self.options, "start"):
-                yield Fault(("axes", name), "", "the quantity follows no motion from a start")
-
-    @cached_property
-    def points(self) -> pd.DataFrame:
-        """What varies, a row for each point that is not left out; raises `ParameterError`."""
-        points = expand(self.dims)[self._kept]
-        require((len(points), "where", " and ".join(self.where), "leaves no point"))
-        return points
-
-    @cached_property
-    def _kept(self) -> list[bool]:
-        """Of all points of the grid, which are not left out, by what varies and by the parameters that do not."""
-        return keeps(expand(self.dims), self.where, {**DEFAULTS, **self._base})
+                yield Fault(place, "", "the quantity follows no motion from a start")
 
     @property
     def _base(self) -> Content:
@@ -251,24 +211,23 @@ class Study(Strict):
         return self.base.model_dump(exclude_unset=True)
 
     @cached_property
+    def points(self) -> pd.DataFrame:
+        """What varies, a row for each point that is not left out; raises `ParameterError`."""
+        return expand(self.dims, self.where, {**DEFAULTS, **self._base})
+
+    @cached_property
     def case(self) -> Parameters:
         """The case of the first point that is possible; raises `ParameterError`, with what is wrong at the
         last point, if none is."""
         base = {**self.of.unset(self.options), **self._base}
-        wrong = ParameterError()
         own = self.points.drop(columns=[*PERTURBATIONS], errors="ignore")
+        wrong = ParameterError()
         for point in own.to_dict("records"):
             try:
                 return case_of(base, self.discs, **{str(name): x for name, x in point.items()})
             except ParameterError as error:
                 wrong = error
-        faults = []
-        for fault in wrong.faults:
-            place = "base"
-            if fault.path[0] in self._varied:
-                place = "axes"
-            faults.append(fault.inside((place,)))
-        raise ParameterError(*faults)
+        raise wrong
 
     @cached_property
     def fixed(self) -> Content:
@@ -281,17 +240,16 @@ class Study(Strict):
 
     @property
     def layout(self) -> Content:
-        """What all points have in common, and the dimensions, for JSON."""
+        """What all points have in common, the dimensions, and the places of points among all that these
+        give, for JSON."""
         used = {*self.points.get("disc", ())}
         return {
             "quantity": self.quantity,
             "options": self.options.model_dump(mode="json"),
             "base": self.fixed,
-            "discs": {
-                x: disc.model_dump(mode="json") for x, disc in self.discs.items() if x in used
-            },
+            "discs": {x: y.model_dump(mode="json") for x, y in self.discs.items() if x in used},
             "dims": {dim: frame.to_dict("list") for dim, frame in self.dims.items()},
-            "kept": self._kept,
+            "places": self.points.index.tolist(),
         }
 
     @cached_property
@@ -299,12 +257,12 @@ class Study(Strict):
         """What each job computes, as JSON, by the name of its file: a hash of what all have in common,
         and one of their own points."""
         codes = {name: column.flags for name, column in self.of.columns.items()}
-        common = {**self.layout, "dims": {}, "kept": [], "code": physics_hash(), "codes": codes}
+        common = {**self.layout, "dims": {}, "places": [], "code": physics_hash(), "codes": codes}
         content = content_key(_text(common))
-        size = self.points_per_job or self.of.points_per_job
         points = np.array(self.points.to_dict("records"))
+        count = math.ceil(len(points) / (self.points_per_job or self.of.points_per_job))
         jobs = {}
-        for part in np.array_split(points, math.ceil(len(points) / size)):
+        for part in np.array_split(points, count):
             of_part = part.tolist()
             jobs[f"{content}-{content_key(_text(of_part))}"] = _text({**common, "points": of_part})
         return jobs
@@ -327,6 +285,21 @@ class Study(Strict):
         """Attributes of the merged dataset that describe the study."""
         return {"study": self.study, "title": self.title}
 
+    # ---- Figures and pages
+
+    @property
+    def labels(self) -> dict[str, dict[str, str]]:
+        """Titles and places in the paper of the cases, as pages show them."""
+        return {
+            name: {"Title": case.title or name, "Place in the paper": case.reference}
+            for name, case in self.cases.items()
+        }
+
+    @property
+    def plots(self) -> dict[str, Plot]:
+        """The figures of grids."""
+        return {name: plot for name, plot in self.figures.items() if isinstance(plot, Plot)}
+
     @property
     def page(self) -> Content:
         """What the explorer shows of the grid: units of figures, dimensions across and up in the first map,
@@ -339,78 +312,69 @@ class Study(Strict):
                 axes = [plot.axes["x"], plot.axes["y"]]
         return {"units": units, "axes": axes, "motion": getattr(self.of.motion, "text", "")}
 
-    # ---- Figures
+    def _wrong_figures(self, grids: Mapping[str, Study]) -> Iterator[Fault]:
+        """What keeps figures in this file from showing its cases, or grids."""
+        recorded = {name: spec.longest_sections for name, spec in self.cases.items()}
+        for name, plot in self.figures.items():
+            faults: Iterable[Fault] = ()
+            if isinstance(plot, CasePlot):
+                faults = plot.faults(recorded)
+            elif isinstance(plot, Plot):
+                faults = self._wrong_plot(plot, grids)
+            for fault in faults:
+                yield fault.inside(("figures", name))
 
-    @property
-    def plots(self) -> dict[str, Plot]:
-        """The figures of grids."""
-        return {name: plot for name, plot in self.figures.items() if isinstance(plot, Plot)}
+    def _wrong_plot(self, plot: Plot, grids: Mapping[str, Study]) -> Iterator[Fault]:
+        """What keeps a figure in this file from showing grids."""
+        shown: dict[tuple[str, ...], str] = {("study",): plot.study or self.study}
+        shown |= {("overlays", role): name for role, name in plot.overlays.items()}
+        for path, name in shown.items():
+            if name not in grids:
+                key = f"name the file of another study by the key studies: [{name}.yaml]"
+                yield Fault.of(path, name, f"no such study{suggestion(name, sorted(grids))}; {key}")
+                return
+        yield from grids[shown["study",]]._wrong_below(plot)
+        for role in plot.overlays.keys() & plot.roles.keys():
+            above = grids[plot.overlays[role]]
+            quantity = plot.roles[role].quantity
+            plane = {getattr(above.options, name, None) for name in ("x", "y")} - {None}
+            rule = ""
+            if above.quantity != quantity:
+                rule = f"must be a study of the quantity {quantity}"
+            elif {"x", "y"} <= plot.axes.keys() and not plane <= {*plot.axes.values()}:
+                rule = "must be computed in the plane of the figure"
+            if rule:
+                yield Fault.of(("overlays", role), above.study, rule)
 
-    def _faults_of(self, plot: Plot) -> list[Fault]:
+    def _wrong_below(self, plot: Plot) -> list[Fault]:
         """What keeps a figure from showing the grid of this study."""
         quantities = plot.shows.quantities
         if quantities and self.quantity not in quantities:
             return [Fault.of(("kind",), plot.kind, f"needs the quantity {quantities[0]}")]
         along: dict[str, list[Any]] = {}
         for dim, frame in self.dims.items():
-            rows = [*frame.itertuples(index=False, name=None)]
-            along[dim] = rows
+            along[dim] = [*frame.itertuples(index=False, name=None)]
             if len(frame.columns) == 1:
-                along[dim] = [value for (value,) in rows]
-        for name in plot.axes.values():
-            if math.inf in along.get(name, ()):
-                return [Fault(("x",), name, "has the value inf, which no axis can show")]
-        variables = {}
+                along[dim] = frame[dim].tolist()
+        own = {}
         for name, column in self.of.columns.items():
-            variables[name] = {**along, **{dim: [] for dim in column.dims if dim not in along}}
-        return plot.faults(along, variables)
-
-    def _misfits(self, plot: Plot, grids: Mapping[str, Study]) -> list[Fault]:
-        """What keeps a figure in this file from showing grids of other files."""
-        shown: dict[tuple[str, ...], str] = {("study",): plot.study or self.study}
-        shown |= {("overlays", role): name for role, name in plot.overlays.items()}
-        key = "; name the file of another study by the key studies: [{}.yaml]"
-        faults = []
-        for path, name in shown.items():
-            if name not in grids:
-                rule = f"no such study{suggestion(name, sorted(grids))}{key.format(name)}"
-                faults.append(Fault.of(path, name, rule))
-        if faults:
-            return faults
-        if plot.study not in ("", self.study):
-            faults += grids[plot.study]._faults_of(plot)
-        for role in plot.overlays.keys() & plot.roles.keys():
-            rule = grids[plot.overlays[role]]._no_overlay(plot, plot.roles[role].quantity)
-            if rule:
-                faults.append(Fault.of(("overlays", role), plot.overlays[role], rule))
-        return faults
-
-    def _no_overlay(self, plot: Plot, quantity: str) -> str:
-        """The rule that this study breaks as one that a figure draws over another of its plane; "" if none."""
-        plane = {getattr(self.options, name, None) for name in ("x", "y")} - {None}
-        if self.quantity != quantity:
-            return f"must be a study of the quantity {quantity}"
-        if {"x", "y"} <= plot.axes.keys() and not plane <= {*plot.axes.values()}:
-            return "must be computed in the plane of the figure"
-        return ""
+            own[name] = {**{dim: [] for dim in column.dims}, **along}
+        return plot.faults(along, own)
 
     def entries(self, grids: Mapping[str, Study]) -> dict[tuple[str, str], FigureEntry]:
         """All figures of the file and of grids, by the study in whose folder they are and their names."""
-        figures = {}
-        for name, plot in self.figures.items():
-            owner = grids[plot.study or self.study] if isinstance(plot, Plot) else self
-            figures[self.study, name] = owner._entry(name, plot)
-        for study in grids.values():
-            for name, grid_plot in study.plots.items():
-                figures.setdefault((study.study, name), study._entry(name, grid_plot))
-        return figures
+        entries = {}
+        for study in {**grids, self.study: self}.values():
+            for name, plot in study.figures.items():
+                if isinstance(plot, CasePlot):
+                    entries[study.study, name] = study._entry_of_cases(name, plot)
+                elif isinstance(plot, Plot):
+                    shown = grids.get(plot.study, study)
+                    entries[study.study, name] = shown._entry(name, plot)
+        return entries
 
-    def _entry(self, name: str, plot: Kind) -> FigureEntry:
-        """A figure, whose caption states what its cases are: the values that differ from Table 1 and do not
-        vary."""
-        if isinstance(plot, CasePlot):
-            return self._entry_of_cases(name, plot)
-        assert isinstance(plot, Plot)
+    def _entry(self, name: str, plot: Plot) -> FigureEntry:
+        """A figure of the grid, whose caption states the values that differ from Table 1 and do not vary."""
         values = values_text(self.fixed, factors_of(plot.units))
         source = ", with ".join(filter(None, [f"the grid study {self.study}", values]))
         title = plot.title or f"{self.title or self.study}: {name}"
@@ -419,15 +383,15 @@ class Study(Strict):
         return FigureEntry(plot, inputs, plot.section, title, caption)
 
     def _entry_of_cases(self, name: str, plot: CasePlot) -> FigureEntry:
-        cases = {case: self.cases[case] for case in plot.cases}
-        every = [case.parameters for case in cases.values()]
+        """A figure of cases, whose caption states their values that differ from Table 1."""
+        every = [self.cases[case].parameters for case in plot.cases]
         values = "; ".join(dict.fromkeys(values_text(dict(p)) for p in every))
         modes = " and ".join(IN_WORDS[each] for each in sorted({p.normalization for p in every}))
         title = plot.title or name
         head = plot.caption or f"{title}:"
         caption = f"{head} {values}; everything else as in Table 1; {modes}."
-        titles = {case: spec.title for case, spec in cases.items()}
-        inputs = dict(zip(cases, cases, strict=True))
+        titles = {case: self.cases[case].title for case in plot.cases}
+        inputs = {case: case for case in plot.cases}
         return FigureEntry(plot, inputs, plot.section or plot.case, title, caption, titles)
 
     # ---- Further files
@@ -436,33 +400,24 @@ class Study(Strict):
         self, folders: Sequence[Path] = (Path(),)
     ) -> tuple[dict[str, Study], tuple[str, ...]]:
         """Studies of all grids, also those that only figures show, and the names of those of this file and
-        the files it names."""
-        grids = self._named_grids(folders)
-        asked = tuple(grids)
+        the files it names; raises `StudyError` also for what keeps figures from showing them."""
+        named = [load_study(path) for each in self.studies for path in _matching(each, folders)]
+        asked = [self] * bool(self.quantity) + named
+        grids = {study.study: study for study in asked}
+        wrong = [study.study for study in named if study.cases or study.studies]
+        if wrong or len(grids) < len(asked):
+            rule = "must be files of grids alone, each of another study"
+            raise StudyError(Fault.of(("studies",), wrong, rule), source=self.study)
         for plot in self.plots.values():
             for name in {plot.study, *plot.overlays.values()} - {"", *grids}:
                 [path] = _matching(f"{name}.yaml", folders)
                 if path.is_file():
                     grids[name] = load_study(path)
-        faults = []
-        for owner in (self, *(grids[name] for name in asked if name != self.study)):
-            for figure, plot in owner.plots.items():
-                for fault in owner._misfits(plot, grids):
-                    faults.append(f"{owner.study}: {fault.inside(('figures', figure))}")
-        if faults:
-            raise StudyError(*faults, source="grid studies")
-        return grids, asked
-
-    def _named_grids(self, folders: Sequence[Path]) -> dict[str, Study]:
-        """The grid of this file, and those of the files that it names."""
-        named = [load_study(path) for each in self.studies for path in _matching(each, folders)]
-        every = [self] * self.has_grid + named
-        grids = {study.study: study for study in every}
-        wrong = [study.study for study in named if study.cases or study.studies]
-        if wrong or len(grids) < len(every):
-            rule = "must be files of grids alone, each of another study"
-            raise StudyError(Fault.of(("studies",), wrong, rule), source=self.study)
-        return grids
+        for study in (self, *named):
+            faults = [*study._wrong_figures(grids)]
+            if faults:
+                raise StudyError(*faults, source=study.study)
+        return grids, tuple(study.study for study in asked)
 
 
 def _matching(pattern: str, folders: Sequence[Path]) -> list[Path]:
@@ -477,7 +432,8 @@ def _matching(pattern: str, folders: Sequence[Path]) -> list[Path]:
 
 
 def load_study(*files: str | Path) -> Study:
-    """Read and check study files, later ones laid over earlier ones, but not the files that they name."""
+    """Read and check study files, later ones laid over earlier ones, but not their figures, nor the files
+    that they name."""
     paths = [Path(file) for file in files]
     return parse_study(reduce(inherit, [mapping(read_file(path)) for path in paths]), paths)
 
@@ -499,16 +455,14 @@ def parse_study(raw: Any, files: Sequence[Path] = ()) -> Study:
 
 def _inherited(content: Content) -> Content:
     """The cases of a file, in which each has what it inherits."""
-    shared: Content = {"parameters": {}}
-    for key, inner in (("base", "parameters"), ("record", "record"), ("tol", "tol")):
-        if content.get(key) is not None:
-            shared[inner] = content[key]
     cases = content.get("cases")
     if not isinstance(cases, dict):
         return {}
+    inner = {"parameters": content.get("base") or {}}
+    inner |= {key: content[key] for key in ("record", "tol") if content.get(key) is not None}
     every = {}
     for name, case in cases.items():
-        every[name] = inherit(shared, case) if isinstance(case, dict) else case
+        every[name] = inherit(inner, case) if isinstance(case, dict) else case
     return {"cases": every}
 
 
@@ -532,4 +486,4 @@ def _with_discs(raw: Any, folder: Path, *path: str) -> Any:
     try:
         return disc_of_table(folder / raw).model_dump(mode="json", exclude_none=True)
     except ParameterError as error:
-        raise ParameterError(*(Fault(path, "", str(fault)) for fault in error.faults)) from None
+        raise ParameterError(*(fault.inside(path) for fault in error.faults)) from None

@@ -14,7 +14,7 @@ from xarray import Dataset
 
 from disc_model.data.columns import result_dataset
 from disc_model.data.variables import COMMON, OF_RESULTS
-from disc_model.errors import Fault, ParameterError, raise_faults, require, suggestion
+from disc_model.errors import Fault, ParameterError, require, suggestion
 from disc_model.parameters import Parameters, require_case
 from disc_model.provenance import versions_text
 from disc_model.studies.compute import Call, Map, compute, stack
@@ -75,26 +75,25 @@ def sweep(
     """
     require_case(case)
     over = dict(over or {})
-    arguments = dict(inspect.signature(function).parameters)
-    arguments.pop(next(iter(arguments), ""), None)
-    numbers = Parameters.model_fields.keys() - arguments.keys()
+    arguments = inspect.signature(function).parameters.keys()
+    numbers = Parameters.model_fields.keys() - arguments
     varied = {name: x for name, x in named.items() if name in numbers}
     options = {name: x for name, x in named.items() if name not in varied}
-    _refuse_unknown((*options, *over), arguments)
+    used = _checked_arguments(function, case, {**options, **over})
     dims = _dimensions(varied, dict({} if zip is None else zip), over)
     points = expand(dims)
     name = str(getattr(function, "__name__", type(function).__name__))
     call = Call(partial(_gathered, function, name, {*points, *dims}), case.replace, options)
     rows: Points = points.to_dict("records")
     results = compute(call, rows, map=map, title=name, progress=progress)
-    _refuse_failure(results)
+    messages = [str(result["message"].values) for result in results]
+    if all(text.startswith("ParameterError") for text in messages):
+        raise ParameterError(f"no point of the sweep has a result: {messages[0]}")
     if name == "steady_sliding":
         _number_fastest(case, rows, results)
     found = stack(results, dims)
     for said in ("status", "message"):
         found[said].attrs.setdefault("long_name", COMMON[said].long_name)
-    defaults = {key: x.default for key, x in arguments.items()}
-    used = {key: x for key, x in defaults.items() if isinstance(x, bool | int | float | str)}
     return found.assign_attrs(
         function=name,
         options=json.dumps(used | options, sort_keys=True, default=repr),
@@ -103,21 +102,21 @@ def sweep(
     )
 
 
-def _refuse_failure(results: Sequence[Dataset]) -> None:
-    """Raise `ParameterError` if no point could be computed because its case or the arguments were wrong."""
-    messages = [str(result["message"].values) for result in results]
-    if all(text.startswith("ParameterError") for text in messages):
-        raise ParameterError(f"no point of the sweep has a result: {messages[0]}")
-
-
-def _refuse_unknown(names: Sequence[str], arguments: Mapping[str, inspect.Parameter]) -> None:
-    """Raise `ParameterError` for names that are no arguments of the function."""
-    if any(each.kind is each.VAR_KEYWORD for each in arguments.values()):
-        return
-    known = [*arguments, *Parameters.model_fields]
-    rule = "is no number of the case, and no argument of the function"
-    unknown = [name for name in names if name not in arguments]
-    raise_faults([Fault((name,), "", rule + suggestion(name, known)) for name in unknown])
+def _checked_arguments(function: Callable[..., Any], case: Parameters, given: Row) -> Row:
+    """Arguments of a function that are numbers or words, with those that it has by default; raises
+    `ParameterError` for what is none."""
+    signature = inspect.signature(function)
+    try:
+        bound = signature.bind(case, **given)
+    except TypeError as error:
+        known = [*signature.parameters, *Parameters.model_fields]
+        rule = "is no number of the case, and no argument of the function"
+        unknown: list[Any] = [
+            Fault((x,), "", rule + suggestion(x, known)) for x in given if x not in known
+        ]
+        raise ParameterError(*(unknown or [str(error)])) from None
+    bound.apply_defaults()
+    return {x: y for x, y in bound.arguments.items() if isinstance(y, bool | int | float | str)}
 
 
 def _number_fastest(case: Parameters, rows: Points, results: Sequence[Dataset]) -> None:
@@ -147,10 +146,11 @@ def _dimensions(varied: Row, zipped: Mapping[Any, Any], over: Row) -> dict[str, 
     dims = {name: pd.DataFrame({name: _column(name, x)}) for name, x in varied.items()}
     dims |= {name: pd.DataFrame({name: pd.Series([*x], dtype=object)}) for name, x in over.items()}
     columns = {str(name): _column(str(name), x) for name, x in zipped.items()}
-    rule = "must have columns of equal length"
-    require((len({*map(len, columns.values())}) <= 1, "zip", "", rule))
     if columns:
-        dims["_".join(columns)] = pd.DataFrame(columns)
+        try:
+            dims["_".join(columns)] = pd.DataFrame(columns)
+        except ValueError as error:  # of columns whose lengths differ
+            raise ParameterError(Fault(("zip",), "", str(error))) from None
     require((dims, "sweep", "", "needs values that vary, such as Omega=[10, 12]"))
     return dims
 

@@ -8,7 +8,7 @@ ones unchanged.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from operator import attrgetter
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -116,8 +116,7 @@ def basins(
     decided = [reached.separates for reached in every if reached.attractor is not None]
     separating = share(sum(decided), len(decided), len(every) - len(decided))
     by_energy = np.array([_shares(row) for row in results.tolist()])
-    values = {
-        "status": _status_of(every),
+    values: Row = {
         "kind": _each(results, lambda reached: reached.word),
         "simulated_time": _each(results, lambda reached: reached.simulated),
         "lost_contact": _each(results, _lost_contact),
@@ -132,24 +131,16 @@ def basins(
         values |= _critical_energy(*min(apart), lambda *start: follow(*start).separates)
     own = {"energy": energies, "start": range(n_starts), "attractor_class": CLASSES}
     own["attractor"] = range(1, MOST_ATTRACTORS + 1)
-    return found("basins", values, "; ".join(_remarks(every)), **own)
-
-
-def _status_of(every: Sequence[OutcomeResult]) -> str:
-    """How the first start failed if all have, else "ok"."""
-    if all(reached.outcome is None for reached in every):
-        return every[0].status
-    return "ok"
-
-
-def _remarks(every: Sequence[OutcomeResult]) -> Iterator[str]:
-    """Yield how many starts failed or stayed undecided, if any."""
+    remarks = []
     failed = [reached for reached in every if reached.outcome is None]
     if failed:
-        yield f"{len(failed)} of {len(every)} starts failed, such as {failed[0].message}"
+        remarks.append(f"{len(failed)} of {len(every)} starts failed, such as {failed[0].message}")
+    if len(failed) == len(every):
+        values["status"] = failed[0].status
     undecided = sum(reached.word == "undecided" for reached in every)
     if undecided:
-        yield f"{undecided} of {len(every)} starts undecided within the horizon: raise it"
+        remarks.append(f"{undecided} of {len(every)} starts undecided within the horizon: raise it")
+    return found("basins", values, *remarks, **own)
 
 
 def _each(results: Objects, value: Callable[[OutcomeResult], Any]) -> Any:

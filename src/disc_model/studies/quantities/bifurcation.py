@@ -2,33 +2,23 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from xarray import Dataset
 
-from disc_model.analysis.classify import Motion as MotionKind
-from disc_model.analysis.classify import closure
+from disc_model.analysis.classify import Motion
 from disc_model.data.variables import Outcome
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Start
-from disc_model.studies.quantity import STATIC, Motion, Row, found, quantity
+from disc_model.studies.quantity import STATIC, Row, found, quantity
 from disc_model.units import Seconds, Size, Tolerance
 
 if TYPE_CHECKING:
     from disc_model.simulation.result import Result
-    from disc_model.simulation.states import State
     from disc_model.stability.attractors import Arrival
 
-LATE = 5.0  # s, of motion from which samples and a period are taken: dozens of cycles
-
-
-def _settled(
-    case: Parameters, *, transient: float, max_transient: float, start: Start, tol: float, **_: Any
-) -> State:
-    """The state in which samples begin."""
-    legs, reached = _transient_of(case, start, transient, max_transient, tol)
-    return reached.end(legs[-1])
+LATE = 5.0  # s, of motion from which samples are taken: dozens of cycles
 
 
 @quantity(
@@ -39,7 +29,6 @@ def _settled(
             "max_transient={0.max_transient:g} must be >= transient={0.transient:g}",
         ),
     ),
-    motion=Motion(100, "After the transient.", _settled),
 )
 def bifurcation(
     case: Parameters,
@@ -67,81 +56,54 @@ def bifurcation(
     >>> dm.bifurcation(dm.Parameters(N=385, Omega=15), transient=20, samples=3)["kind"].item()
     'stick_slip'
     """
-    legs, reached = _transient_of(case, start, transient, max_transient, tol)
-    values = _at_switches(case, legs, reached, samples, tol)
-    message = ""
-    if values["settled"] != "settled":
-        message = f"{values['settled']} after {reached.stay:g} s: raise max_transient"
-    values |= {"status": "ok", "transient_time": reached.stay}
-    return found("bifurcation", values, message, sample=range(samples))
-
-
-def _transient_of(
-    case: Parameters, start: Start, transient: float, max_transient: float, tol: float
-) -> tuple[list[Result], Arrival]:
-    """The runs of the time left out, and what they have come to; raises `SimulationError`."""
+    from disc_model.simulation.api import simulate
     from disc_model.simulation.starts import make_initial_state
     from disc_model.stability.attractors import settle
 
-    state = make_initial_state(case, start, tol)
-    legs, reached = settle(case, state, transient, max_transient, tol)
-    legs[-1].raise_for_status()
-    return legs, reached
-
-
-def _at_switches(
-    case: Parameters, legs: list[Result], reached: Arrival, samples: int, tol: float
-) -> Row:
-    """Samples at separations, or at releases where there are none."""
-    from disc_model.simulation.api import simulate
-    from disc_model.stability.segments import stick_share
-
-    last = legs[-1]
+    first = make_initial_state(case, start, tol)
+    legs, reached = settle(case, first, transient, max_transient, tol)
+    last = legs[-1].raise_for_status()
     state = reached.end(last)
     record = simulate(case, state.time + LATE, tol=tol, initial_state=state).raise_for_status()
     every = [*legs, record]
-    firsts = [run.first_separation for run in every if not np.isnan(run.first_separation)]
-    if reached.calm is None and reached.near is not None:  # the attractor is known exactly
-        stick = reached.near.cycle.stick_fraction
-    else:
-        stick = stick_share(last if reached.calm is None else record)
+    separations = [run.first_separation for run in every if not np.isnan(run.first_separation)]
     events = record.events
     taken, phase = events[events["kind"] == "separation"], "separation"
     if taken.empty:
         taken, phase = events[events["kind"] == "stick_to_slip"], "stick"
     shown = taken.iloc[-samples:]
-    return {
+    settled = reached.settling.answer.value
+    values = {
         **{name: shown[name].to_numpy(dtype=float) for name in ("psi", "P", "u")},
         "psi_velocity": case.Omega - shown["f"].to_numpy(dtype=float),
-        **_motion_reached(case, reached, last, tol),
         "phase": [phase] * len(shown),
-        "first_separation": next(iter(firsts), np.nan),
+        "first_separation": next(iter(separations), np.nan),
         "separations": sum(int(run.statistics["n_separations"]) for run in every),
-        "stick_fraction": stick,
+        "transient_time": reached.stay,
+        "settled": settled,
+        **_attractor(case, reached, last, record, tol),
     }
+    message = ""
+    if settled != "settled":
+        message = f"{settled} after {reached.stay:g} s: raise max_transient"
+    return found("bifurcation", values, message, sample=range(samples))
 
 
-def _motion_reached(case: Parameters, reached: Arrival, run: Result, tol: float) -> Row:
-    """Columns that say whether a motion has settled at the end of a run, and on what: by the proof of its
-    arrival, or else by its regularity if the record shows that it has settled."""
+def _attractor(case: Parameters, reached: Arrival, last: Result, record: Result, tol: float) -> Row:
+    """Columns of what a motion has come to: by the proof of its arrival, or else by its regularity if the last
+    run shows that it has settled."""
     from disc_model.stability.attractors import regularity
+    from disc_model.stability.segments import stick_share
 
-    motion = MotionKind(reached.calm or Outcome.UNDECIDED)
-    if reached.calm is None and reached.near is not None:
+    motion = Motion(reached.calm or Outcome.UNDECIDED)
+    if reached.calm is not None:
+        stick = stick_share(record)
+    elif reached.near is not None:  # known exactly
         cycle = reached.near.cycle
-        kind = "separation" if cycle.separations else "stick_to_slip"
-        n = cycle.separations or cycle.releases
-        times = run.events["time"][run.events["kind"] == kind]
-        intervals = np.diff(times[times > run.final_state.time - LATE])
-        rest = closure(intervals, n) if n < len(intervals) else np.nan
-        motion = MotionKind(reached.near.kind, n, rest)
-    elif reached.calm is None and reached.settled:
-        motion = regularity(case, run.final_state, tol)
-    return {
-        "settled": reached.settling.answer.value,
-        "change_rate": reached.settling.rate,
-        "least_rate": reached.settling.least,
-        "kind": motion.kind,
-        "period_events": motion.period,
-        "period_residual": motion.closure,
-    }
+        stick = cycle.stick_fraction
+        motion = Motion(reached.near.kind, cycle.separations or cycle.releases)
+    else:
+        stick = stick_share(last)
+        if reached.settled:
+            motion = regularity(case, last.final_state, tol)
+    return {"kind": motion.kind, "period_events": motion.period, "stick_fraction": stick}

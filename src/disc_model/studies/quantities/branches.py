@@ -12,10 +12,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 import numpy as np
 from xarray import Dataset
 
-from disc_model.data.variables import OF_QUANTITIES, value_with_unit
-from disc_model.display import counted
+from disc_model.data.variables import value_with_unit
 from disc_model.parameters import Parameters
-from disc_model.studies.quantities.hysteresis import DIRECTIONS, STAYS
+from disc_model.studies.quantities.hysteresis import DIRECTIONS, STAYS, Stays, by_place
 from disc_model.studies.quantity import (
     BETWEEN,
     NUMERICAL,
@@ -91,10 +90,7 @@ def branches(
     from disc_model.stability.sliding import steady_sliding
 
     values = values_between(bounds, step)
-    columns = OF_QUANTITIES["branches"]["columns"]
-    swept = {}
-    for variable in ("sweep_range", "sweep_separation_rate", "sweep_settled"):
-        swept[variable] = columns[variable].empty((2, len(values)))
+    swept: Stays = {}
     family = Family(name, (values[0], values[-1]))
     remarks = []
     lowest = 0 if sweep_from is None else int(np.searchsorted(values, sweep_from))
@@ -103,10 +99,11 @@ def branches(
         if late is None:
             remarks.append(f"{value_with_unit(name, values[i])}: {result.message}")
             break
-        swept["sweep_range"][way, i] = late.range
-        swept["sweep_separation_rate"][way, i] = late.separation_rate
-        answer = reached.settling.answer
-        swept["sweep_settled"][way, i] = columns["sweep_settled"].flags.index(answer)
+        swept[way, i] = {
+            "sweep_range": late.range,
+            "sweep_separation_rate": late.separation_rate,
+            "sweep_settled": reached.settling.answer,
+        }
         if way == 0 or i < lowest:
             near_start = find_cycle(result.parameters)
             if near_start.state is not None:
@@ -116,8 +113,7 @@ def branches(
             family.follow(cycle, guess=cycle.state, releases=cycle.releases)
     found_values: Row = {
         **listed(family.rows),
-        **swept,
-        "status": "ok",
+        **by_place(swept, len(values)),
         "n_branches": len(family.rows),
         "n_continuation_failures": family.failures,
         "sliding_growth_rate": [
@@ -126,13 +122,9 @@ def branches(
     }
     if remarks:
         found_values["status"] = "failed"
-    if family.left_out:
-        cycles = counted(family.left_out, "cycle")
-        remarks.append(f"{cycles} of further branches, for which there is no room")
     own: Row = {"branch": range(MOST_BRANCHES), "branch_point": range(2 * MOST_POINTS)}
-    message = "; ".join(remarks)
     own |= {"direction": DIRECTIONS, "sweep_value": values}
-    return found("branches", found_values, message, **own)
+    return found("branches", found_values, *remarks, **own)
 
 
 @dataclass
@@ -141,14 +133,13 @@ class Family:
 
     name, ends : of the number, and between which values
     rows : columns of each stretch of a branch
-    failures, left_out : cycles that could not be continued, and those for which there was no room
+    failures : number of cycles that could not be continued
     """
 
     name: str
     ends: tuple[float, float]
     rows: list[Row] = field(default_factory=list)
     failures: int = 0
-    left_out: int = 0
 
     def follow(self, cycle: FloquetResult, **how: Any) -> None:
         """Continue a cycle in both directions, unless a known branch passes there."""
@@ -160,9 +151,6 @@ class Family:
         low, high = extremes_of_cycle(case, cycle.state, cycle.period)
         value = case.numbers[self.name]
         if any(_passes(row, value, cycle.period, high - low) for row in self.rows):
-            return
-        if len(self.rows) >= MOST_BRANCHES:
-            self.left_out += 1
             return
         # leaves room for special points between those computed: as a step turns by 26 degrees at most, at least six
         # lie from fold to fold; with other bifurcations there is one among nine to eighteen points

@@ -5,7 +5,7 @@ be several.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from itertools import pairwise
 from typing import TYPE_CHECKING, Annotated, Any
@@ -91,7 +91,7 @@ def critical_speed(
         `critical_speed` (rad/s, nan if none was found in steps of the scan) and crossings, by horizon where a list is
         given; outcomes and first separations along the scan. Contact was lost at the critical speed, and kept at the
         next lower one computed, which is lower by `precision`; where it was lost at the lowest speed already,
-        `at_lower_bound` is true. `message` states which horizons have no critical speed, or one at the lower bound.
+        `at_lower_bound` is true.
 
     Examples
     --------
@@ -122,8 +122,9 @@ def critical_speed(
         # every interval over which separation within the horizon begins or ends is halved, down to the lattice
         while middles := [(a + b) // 2 for a, b in _changes(_lost(motions, time)) if b - a > 1]:
             look(middles)
-    rows = [_crossings(_lost(motions, time), lattice) for time in horizon]
     wrong = {i: result for i, result in motions.items() if result.status != "ok"}
+    remarks = [f"{value_with_unit('Omega', lattice[i])}: {x.message}" for i, x in wrong.items()]
+    rows = [_crossings(_lost(motions, time), lattice) for time in horizon]
     values: Row = {
         "status": next((result.status for result in wrong.values()), "ok"),
         "scan_outcome": [motions[i].word for i in scanned],
@@ -133,27 +134,9 @@ def critical_speed(
         "simulated_time": sum(result.simulated for result in motions.values()),
         **listed(rows),
     }
-    remarks = [f"{value_with_unit('Omega', lattice[i])}: {x.message}" for i, x in wrong.items()]
-    scan = f"at {count} speeds from {bounds[0]:g} to {bounds[1]:g} rad/s"
-    remarks += _remarks(horizon, values["critical_speed"], bounds[0], scan)
     own = {"horizon": horizon, "crossing_number": range(MOST_CROSSINGS)}
-    message = "; ".join(remarks)
-    answer = found("critical_speed", values, message, **own, scan_Omega=lattice[::ratio])
+    answer = found("critical_speed", values, *remarks, **own, scan_Omega=lattice[::ratio])
     return answer.assign(at_lower_bound=answer["critical_speed"] <= bounds[0])
-
-
-def _remarks(
-    horizons: Sequence[float], speeds: Sequence[float], lowest: float, scan: str
-) -> Iterator[str]:
-    """Yield which horizons have no critical speed, or one at the lower bound."""
-    by_horizon = [*zip(horizons, speeds, strict=True)]
-    without = [f"{time:g}" for time, speed in by_horizon if math.isnan(speed)]
-    if without:
-        yield f"no separation within {', '.join(without)} s {scan}"
-    at_bound = [f"{time:g}" for time, speed in by_horizon if speed <= lowest]
-    if at_bound:
-        bound = f"at the lower bound, {lowest:g} rad/s"
-        yield f"contact is already lost within {', '.join(at_bound)} s {bound}"
 
 
 def _lost(motions: Mapping[int, OutcomeResult], horizon: float) -> dict[int, bool | None]:

@@ -4,7 +4,7 @@ and Lyapunov exponents of the motion."""
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
 from xarray import Dataset
@@ -70,15 +70,7 @@ def floquet(case: Parameters, *, tol: CycleTolerance = 1e-12) -> Dataset:
 # ---- Lyapunov exponents
 
 
-def _after_transient(
-    case: Parameters, *, start: Start, transient: float, tol: float, **_: Any
-) -> State:
-    from disc_model.simulation.starts import state_after
-
-    return state_after(case, start, transient, tol)
-
-
-@quantity(points_per_job=60, motion=Motion(100, "After the transient.", _after_transient))
+@quantity(points_per_job=60)
 def lyapunov_exponents(
     case: Parameters,
     *,
@@ -97,12 +89,13 @@ def lyapunov_exponents(
     start : start of the motion
     tol : tolerance of simulations: error of event times after a second of motion
     """
+    from disc_model.simulation.starts import state_after
     from disc_model.stability.lyapunov import lyapunov_exponents as exponents_of
 
     result = exponents_of(
         case,
         duration,
-        initial_state=_after_transient(case, start=start, transient=transient, tol=tol),
+        initial_state=state_after(case, start, transient, tol),
         count=EXPONENTS,
         interval=0.05,
         leave_out_trivial=True,
@@ -182,7 +175,6 @@ def neutral_curves(
         row |= {f"resonance_{name}": value for name, value in curve.resonance._asdict().items()}
         rows.append(row)
     values = {
-        "status": "ok",
         "n_curves": len(curves),
         "n_continuation_failures": len(curves.failures),
         **listed(rows),

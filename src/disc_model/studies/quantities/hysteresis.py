@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import asdict
 
 import numpy as np
 import xarray as xr
 
-from disc_model.data.variables import OF_QUANTITIES, WORDS, value_with_unit
+from disc_model.data.variables import value_with_unit
 from disc_model.display import counted
 from disc_model.parameters import Parameters
 from disc_model.studies.quantity import BETWEEN, Row, Rules, Speeds, found, quantity, values_between
@@ -23,8 +23,8 @@ WITHIN = (
     lambda o: o.evaluation_time <= o.dwell,
     "evaluation_time={0.evaluation_time:g} must be <= dwell={0.dwell:g}",
 )
-OK = WORDS["point_statuses"].index("ok")
-SETTLED = WORDS["answers"].index("settled")
+Stays = dict[tuple[int, int], Row]
+"""Columns of stays at values, by direction (0 up, 1 down) and the index of the value."""
 
 
 @quantity(points_per_job=3, own=("Omega",), rules=(*BETWEEN, *STAYS, WITHIN))
@@ -54,9 +54,9 @@ def hysteresis(
     -------
     xarray.Dataset
         `onset_speed`, `offset_speed` (rad/s): the first speed with separation on the way up, and the lowest one to
-        which it persists on the way down. They are nan where the bounds do not show them; `message` says why, and
-        whether motions in contact had not settled (`sweep_settled`): the onset may then be lower. `separation_rate`
-        (1/s), `stay` (s) and others by direction and speed.
+        which it persists on the way down. They are nan where the bounds do not show them, as where separation begins at
+        the lowest speed; `message` says whether motions in contact had not settled (`sweep_settled`): the onset may
+        then be lower. `separation_rate` (1/s), `stay` (s) and others by direction and speed.
 
     Examples
     --------
@@ -68,65 +68,51 @@ def hysteresis(
     from disc_model.stability.attractors import sweep
 
     swept = values_between(bounds, step)
-    columns = OF_QUANTITIES["hysteresis"]["columns"]
-    values: Row = {variable: column.empty((2, len(swept))) for variable, column in columns.items()}
+    stays: Stays = {}
     status = "ok"
-    failure = ""
+    remarks = []
     for place, result, late, reached in sweep(
         case, "Omega", swept, dwell, max_dwell, evaluation_time, tol
     ):
-        stay: Row = {
-            "sweep_settled": WORDS["answers"].index(reached.settling.answer),
-            "stay": reached.stay,
-        }
+        stays[place] = {"sweep_settled": reached.settling.answer, "stay": reached.stay}
+        stays[place]["separation_rate"] = np.nan
         if late is None:
             status = result.status.value
-            failure = f"{value_with_unit('Omega', swept[place[1]])}: {result.message}"
+            remarks.append(f"{value_with_unit('Omega', swept[place[1]])}: {result.message}")
         else:
-            stay |= {**asdict(late), "range": late.range}
-        stay["sweep_status"] = WORDS["point_statuses"].index(status)
-        for variable in values.keys() & stay.keys():
-            values[variable][place] = stay[variable]
-    onset, offset = _edges(swept, values)
+            stays[place] |= {**asdict(late), "range": late.range}
+        stays[place]["sweep_status"] = status
+    values = by_place(stays, len(swept))
+    rates = np.array(values["separation_rate"], dtype=float)
+    onset, offset = _edges(swept, rates)
     values |= {"status": status, "onset_speed": onset, "offset_speed": offset}
-    message = failure or "; ".join(_reasons(swept, values))
-    return found("hysteresis", values, message, direction=DIRECTIONS, sweep_Omega=swept)
+    settled = np.array(values["sweep_settled"]) == "settled"
+    if doubtful := int(((rates == 0) & ~settled).sum()):
+        after = f"after {counted(doubtful, 'stay')}"
+        remarks.append(f"{after} the motion in contact had not settled: raise max_dwell")
+    return found("hysteresis", values, *remarks, direction=DIRECTIONS, sweep_Omega=swept)
 
 
-def _edges(swept: Sequence[float], values: Row) -> tuple[float, float]:
+def by_place(stays: Stays, count: int) -> Row:
+    """Columns of stays by direction and value; None where the sweep did not come."""
+    names = dict.fromkeys(name for stay in stays.values() for name in stay)
+    return {
+        name: [[stays.get((way, i), {}).get(name) for i in range(count)] for way in (0, 1)]
+        for name in names
+    }
+
+
+def _edges(swept: Sequence[float], rates: np.ndarray) -> tuple[float, float]:
     """Values at which separation sets in on the way up, and to which it persists on the way down, nan where
     they are not known: each lies beside a value at which contact is kept."""
-    rising, falling = values["separation_rate"] > 0
-    done = values["sweep_status"][1] == OK
+    rising, falling = rates > 0
     onset = offset = np.nan
     if rising.any() and not rising[0]:
         onset = swept[rising.argmax()]
     quiet = np.flatnonzero(~falling)
-    if falling[-1] and quiet.size and done[quiet[-1]]:
+    if falling[-1] and quiet.size and not np.isnan(rates[1, quiet[-1]]):
         offset = swept[quiet[-1] + 1]
     return onset, offset
-
-
-def _reasons(swept: Sequence[float], values: Row) -> Iterator[str]:
-    """Why a sweep up and down has no onset or no end of separation, and where contact may yet be lost."""
-    lowest, highest = (value_with_unit("Omega", value) for value in (swept[0], swept[-1]))
-    apart = values["separation_rate"] > 0
-    rising, falling = apart
-    if not apart.any():
-        yield f"contact is kept from {lowest} to {highest}"
-    else:
-        if rising[0]:
-            yield f"contact is lost on the way up from the lower bound on, {lowest}"
-        elif not rising.any():
-            yield f"contact is kept on the way up to {highest}"
-        if falling.all():
-            yield f"contact is still lost on the way down at the lower bound, {lowest}"
-        elif not falling[-1]:
-            yield f"contact is kept at {highest}, where the way down begins"
-    doubtful = (values["separation_rate"] == 0) & (values["sweep_settled"] != SETTLED)
-    if doubtful.any():
-        stays = counted(int(doubtful.sum()), "stay")
-        yield f"after {stays} the motion in contact had not settled: raise max_dwell"
 
 
 def swept_speeds(sweep: xr.Dataset) -> tuple[xr.DataArray, xr.DataArray]:

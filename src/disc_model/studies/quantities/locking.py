@@ -64,23 +64,34 @@ def locking(
     """
     from disc_model.simulation.api import simulate
     from disc_model.simulation.starts import state_after
-    from disc_model.stability.locking import phase_map
+    from disc_model.stability.locking import lock_of, phase_map, releases_of
 
     state = state_after(case, start, transient, tol)
     while True:
         run = simulate(case, duration=record, tol=tol, initial_state=state).raise_for_status()
-        values, lock = _read(run)
-        if values["motion"] != "undecided" or 2 * record > max_record:
+        taken = releases_of(run)
+        if taken is None:
+            values: Row = {"motion": _without_releases(run)}
+            lock = None
+        else:
+            values = {
+                "motion": "undecided",
+                "separations_per_release": float(np.mean(taken.vibrations)),
+                "release_phase": taken.phases[:RELEASES],
+            }
+            lock = lock_of(taken)
+        if lock or values["motion"] != "undecided" or 2 * record > max_record:
             break
         record *= 2
-    values |= {"status": "ok", "record_time": record}
     message = ""
-    if lock is not None and multipliers:
+    if lock and multipliers:
         proof = _proof(run, lock)
         if proof is None:
-            values["motion"] = "undecided"
             message = f"no stable cycle of {lock.releases} releases was found at the motion"
-        values |= proof or {}
+            proof = {**_columns_of(lock), "motion": "undecided"}
+        values |= proof
+    elif lock:
+        values |= _columns_of(lock)
     if probes:
         phases = phase_map(case, run, probes, tol)
         values |= {
@@ -92,40 +103,22 @@ def locking(
     return found("locking", values, message, release=range(RELEASES), probe=range(probes))
 
 
-def _read(run: Result) -> tuple[Row, Lock | None]:
-    """What the record of a motion shows, and how it repeats, if it does."""
-    from disc_model.stability.locking import lock_of, releases_of
-
-    taken = releases_of(run)
-    if taken is None:
-        kinds = run.events["kind"].to_numpy()
-        motion = "undecided"
-        if not (kinds == "separation").any():
-            motion = "in_contact"
-        elif not (kinds == "stick_to_slip").any():
-            motion = "without_stick"
-        return {"motion": motion}, None
-    lock = lock_of(taken)
-    values: Row = {
-        "motion": "undecided",
-        "separations_per_release": float(np.mean(taken.vibrations)),
-        "separation_interval": taken.vibration,
-        "release_phase": taken.phases[:RELEASES],
-        "release_separations": taken.vibrations[:RELEASES].astype(float),
-    }
-    if lock is not None:
-        values |= {"motion": "locked", **_columns_of(lock)}
-    return values, lock
+def _without_releases(run: Result) -> str:
+    """What a motion does that is not released from stick again and again while it separates."""
+    kinds = {*run.events["kind"]}
+    if "separation" not in kinds:
+        return "in_contact"
+    if "stick_to_slip" not in kinds:
+        return "without_stick"
+    return "undecided"
 
 
 def _proof(run: Result, lock: Lock) -> Row | None:
     """Columns of the stable cycle that a motion is on; None without one."""
     from disc_model.stability.cycle import multipliers
-    from disc_model.stability.locking import locked_cycle, releases_of
+    from disc_model.stability.locking import locked_cycle
 
-    taken = releases_of(run)
-    assert taken is not None
-    found = locked_cycle(run.parameters, run.final_state, lock, taken)
+    found = locked_cycle(run.parameters, run.final_state, lock)
     if found is None:
         return None
     cycle, lock = found
@@ -144,9 +137,9 @@ def _proof(run: Result, lock: Lock) -> Row | None:
 def _columns_of(lock: Lock) -> Row:
     """Columns of the period of a motion that repeats."""
     return {
+        "motion": "locked",
         "separations_per_release": lock.vibrations / lock.releases,
         "period_releases": lock.releases,
         "period_separations": lock.vibrations,
         "period": lock.period,
-        "period_residual": lock.closure,
     }

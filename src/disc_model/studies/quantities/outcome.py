@@ -6,7 +6,6 @@ from __future__ import annotations
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
 from xarray import Dataset
 
 from disc_model.data.variables import Outcome
@@ -25,17 +24,16 @@ _TIMES = (
     "evaluation_time={0.evaluation_time:g} must be <= after_separation={0.after_separation:g} and <= "
     "horizon={0.horizon:g}"
 )
-FEWEST = 4  # least number of checks of a motion that give a rate
 
 
 def _late(
     case: Parameters,
     horizon: float,
-    start: Start,
-    evaluation_time: float,
-    after_separation: float,
-    early_end: bool,
-    tol: float,
+    start: Start = STATIC,
+    evaluation_time: float = 1.0,
+    after_separation: float = 5.0,
+    early_end: bool = True,
+    tol: float = 1e-10,
 ) -> tuple[OutcomeResult, Result | None, Segment | None]:
     """The outcome, the run beyond it, if any, and the late stretch."""
     from disc_model.simulation.starts import make_initial_state
@@ -58,9 +56,9 @@ def _late(
     return reached, *final_segment(case, on, duration, evaluation_time, tol)
 
 
-def come_to(case: Parameters, *args: Any, **options: Any) -> State:
-    """The state that the motion has come to."""
-    reached, result, _ = _late(case, *args, **options)
+def come_to(case: Parameters, *, timed: Any = None, **options: Any) -> State:
+    """The state that the motion has come to, for options of `outcome` or of `regions`."""
+    reached, result, _ = _late(case, **options)
     state = reached.state
     if last := reached.failed or result:
         state = last.raise_for_status().final_state
@@ -113,12 +111,9 @@ def outcome(
         case, horizon, start, evaluation_time, after_separation, early_end, tol
     )
     values: Row = {
-        "status": "ok",
         "outcome": reached.word,
         "first_separation": reached.timed_separation,
         "time_reached": reached.time,
-        "cycle_distance": reached.distance,
-        **_changes(reached),
     }
     if late is not None:
         values |= asdict(late)
@@ -129,18 +124,4 @@ def outcome(
         message = last.message
     if reached.outcome is Outcome.SEPARATION and result is not None:
         values["time_reached"] = result.final_state.time
-    elif reached.outcome is not None and reached.time < horizon:
-        values["left_at"] = reached.time
     return found("outcome", values, message)
-
-
-def _changes(reached: OutcomeResult) -> dict[str, float]:
-    """The last difference of successive cycles, and its growth rate."""
-    if not reached.changes:
-        return {}
-    shown = {"return_map_residual": reached.changes[-1]}
-    changes = np.array(reached.changes[-FEWEST:])
-    if len(changes) == FEWEST and np.all(changes > 0):
-        rate, _ = np.polyfit(reached.times[-FEWEST:], np.log(changes), 1)
-        shown["return_map_residual_rate"] = float(rate)
-    return shown

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Annotated
 import numpy as np
 from xarray import Dataset
 
-from disc_model.data.variables import PHASES
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Window
 from disc_model.studies.quantity import Row, found, listed, quantity
@@ -89,13 +88,12 @@ def range_law(
             row |= _measure(run)
             row["earlier_range"] = np.ptp(before["earlier"]["u"].values)
         rows.append(row)
-    return found("range_law", {"status": "ok", **listed(rows)}, begin=("static", "displaced"))
+    return found("range_law", listed(rows), begin=("static", "displaced"))
 
 
 def _measure(run: Result) -> Row:
     """Columns of a stretch of motion."""
-    from disc_model.analysis.classify import separation_location
-    from disc_model.analysis.contact_loss import excess_of_flights, pinned_range
+    from disc_model.analysis.contact_loss import pinned_range
     from disc_model.analysis.spectra import main_frequency, share_at
 
     count = run.statistics["n_separations"]
@@ -105,25 +103,16 @@ def _measure(run: Result) -> Row:
     duration = float(time[-1] - time[0])
     frequency = main_frequency(time, height)
     pinned = pinned_range(run.parameters, frequency)
-    apart = run.statistics["time_separation"] / duration
     extent = float(np.ptp(height))
-
-    # samples at which separations begin; shorter ones lie between two samples
-    is_apart = samples["phase"].values == PHASES.index("separation")
-    starts = np.flatnonzero(np.diff(is_apart.astype(int)) == 1) + 1
-    values = {
+    return {
         "range": extent,
         "pinned_range": pinned,
         "deviation": extent / pinned - 1,
-        "flight_excess": excess_of_flights(apart),
         "lowest_force": float(samples["P"].min()),
         "vibration_frequency": frequency,
         "vibration_share": share_at(time, height, frequency),
         "force_share": share_at(time, samples["P"].values, frequency),
         "separation_rate": count / duration,
-        "separation_fraction": apart,
+        "separation_fraction": run.statistics["time_separation"] / duration,
         "stick_fraction": run.statistics["time_stick"] / duration,
     }
-    if starts.size:
-        values["loss_position"] = separation_location(height, starts)
-    return values

@@ -5,29 +5,22 @@ Multipliers give the outcome where the start stays on its cycle. Elsewhere the s
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from xarray import Dataset
 
 from disc_model.data.variables import STABLE_CYCLES, Outcome
 from disc_model.parameters import Parameters
-from disc_model.studies.quantity import COME_TO, STATIC, Motion, Row, found, quantity
+from disc_model.studies.quantities.outcome import come_to
+from disc_model.studies.quantity import COME_TO, Motion, Row, found, quantity
 from disc_model.units import Finite, Seconds, Tolerance
 
 if TYPE_CHECKING:
-    from disc_model.simulation.states import State
     from disc_model.stability.cycle import FloquetResult
     from disc_model.stability.follower import NearCycle, OutcomeResult
 
 
-def _come_to(case: Parameters, *, horizon: float, tol: float, **_: Any) -> State:
-    """The state that the motion has come to."""
-    from disc_model.studies.quantities.outcome import come_to
-
-    return come_to(case, horizon, STATIC, 1.0, 5.0, True, tol)
-
-
-@quantity(points_per_job=250, motion=Motion(25, COME_TO, _come_to))
+@quantity(points_per_job=250, motion=Motion(25, COME_TO, come_to))
 def regions(
     case: Parameters,
     horizon: Seconds,
@@ -58,14 +51,13 @@ def regions(
     followed: NearCycle | None = None
     if isinstance(start, NearCycle) and start.follows_cycle:
         followed = start
-    values: Row = {"status": "ok", "method": "multipliers"}
+    values: Row = {"method": "multipliers"}
     message = ""
     if followed and followed.cycle.stable:
         values["outcome"] = Outcome.STICK_SLIP
     else:
-        is_timed = any(place.items() <= case.numbers.items() for place in timed)
         compared_with: tuple[float, ...] = (horizon,)
-        if is_timed:
+        if any(place.items() <= case.numbers.items() for place in timed):
             compared_with = ()
         result = find_outcome(case, horizon, tol=tol, near=start, compared_with=compared_with)
         values |= _followed(result)
@@ -73,7 +65,9 @@ def regions(
         if followed is None or result.outcome is Outcome.STICK_SLIP:
             followed = result.near
     if followed is not None:
-        values |= _columns_of(followed.cycle)
+        cycle = followed.cycle
+        values |= {"cycle": "followed", "growth_rate": cycle.growth_rate}
+        values |= {"period": cycle.period, "releases": cycle.releases}
     else:
         values["cycle"] = _without_cycle(start, values["outcome"])
     return found("regions", values, message)
@@ -99,22 +93,7 @@ def _without_cycle(start: FloquetResult | NearCycle, outcome: str) -> str:
     """What there is in place of a cycle that the static start follows, by what was found near it."""
     if outcome == Outcome.STEADY_SLIDING:
         return "steady_sliding"
-    motion = getattr(start, "motion", "nearby_only")
-    known = ("nearby_only", *STABLE_CYCLES, "unstable_sliding")
-    if motion in known:
+    motion: str = getattr(start, "motion", "nearby_only")
+    if motion in ("nearby_only", *STABLE_CYCLES, "unstable_sliding"):
         return motion
     return "no_cycle"
-
-
-def _columns_of(cycle: FloquetResult) -> Row:
-    """The columns of the cycle that a static start follows."""
-    from disc_model.analysis.spectra import modes_at_rest
-
-    bound = [frequency for frequency, _, moves in modes_at_rest(cycle.parameters) if moves]
-    return {
-        "cycle": "followed",
-        "growth_rate": cycle.growth_rate,
-        "period": cycle.period,
-        "releases": cycle.releases,
-        "period_ratio": cycle.period * min(bound),
-    }

@@ -18,7 +18,7 @@ from disc_model.analysis.classify import share
 from disc_model.data.variables import OF_QUANTITIES, with_advice
 from disc_model.errors import require
 from disc_model.parameters import Parameters
-from disc_model.studies.quantity import Row, Ruled, attempted, found, listed, quantity, with_ends
+from disc_model.studies.quantity import Row, Ruled, attempted, found, quantity, with_ends
 from disc_model.units import CycleTolerance, Finite, Natural, Seconds, Several, Unit, is_number
 
 UNSTABLE = ("unstable", "no_cycle", "separates", "unstable_sliding")
@@ -82,21 +82,18 @@ def sensitivity(
     names = sorted(distributions)
     rows: list[Row] = []
     for values in _draws(case, distributions, samples, seed):
-        rows.append(
-            {"status": "ok", "parameter_values": values, "cycle": FAILED, "outcome": FAILED}
-        )
-    for row in rows[simulated_samples:]:
-        row["outcome"] = "not_simulated"
+        rows.append({"parameter_values": values, "status": "ok", "cycle": FAILED})
+    for i, row in enumerate(rows):
+        row["outcome"] = FAILED if i < simulated_samples else "not_simulated"
 
-    def fill(i: int, row: Row) -> Iterator[str]:
+    def fill(row: Row) -> Iterator[str]:
         own = dict(zip(names, row["parameter_values"].tolist(), strict=True))
         sample = case.replace(**own)
         yield evaluate_cycle(sample, tol, row)
-        if i < simulated_samples:
+        if row["outcome"] == FAILED:
             yield _outcome(sample, horizon, row)
 
-    messages = attempted(rows, fill)
-    columns: Row = listed(rows)
+    columns: Row = attempted(rows, fill)
     for words, hits, kind, asked in (
         (columns["cycle"], UNSTABLE, "cycles", "unstable"),
         (columns["outcome"][:simulated_samples], ("separation",), "outcomes", "separation"),
@@ -106,8 +103,7 @@ def sensitivity(
         columns |= {f"n_known_{kind}": known, f"n_failed_{kind}": lost}
         probability = share(sum(word in hits for word in words), known, lost)
         columns |= with_ends(f"probability_{asked}", probability)
-    own: Row = {"sample": range(samples), "parameter": names}
-    return found("sensitivity", columns, messages, **own)
+    return found("sensitivity", columns, sample=range(samples), parameter=names)
 
 
 def _draws(

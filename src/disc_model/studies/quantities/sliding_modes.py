@@ -38,7 +38,7 @@ def sliding_modes(
 
     Parameters
     ----------
-    name : number of the case that varies; with mu_k, mu_s rises where that is larger
+    name : number of the case that varies
     bounds : its least and greatest value
     step : between its values
     modes : room for that many modes, numbered by frequency at the first value
@@ -53,7 +53,7 @@ def sliding_modes(
     from disc_model.stability.sliding import follow_modes, height_of_slider
 
     values = values_between(bounds, step)
-    cases = [_case_at(case, name, value) for value in values]
+    cases = [case.replace(**{name: value}) for value in values]
     followed = follow_modes(cases)
     n_modes = max(int(numbers.max(initial=-1)) + 1 for _, _, numbers, _ in followed)
     table = OF_QUANTITIES["sliding_modes"]["columns"]
@@ -74,13 +74,6 @@ def sliding_modes(
         else:
             messages.append(f"{value_with_unit(name, values[i])}: {sliding.message}")
         rows.append(row)
-    answer = {"status": "ok", "n_modes": n_modes, **columns, **listed(rows)}
+    answer = {"n_modes": n_modes, **columns, **listed(rows)}
     numbered = np.arange(1, modes + 1)
-    return found("sliding_modes", answer, "".join(messages[:1]), value=values, mode=numbered)
-
-
-def _case_at(case: Parameters, name: str, value: float) -> Parameters:
-    """The case at a value of the parameter."""
-    if name == "mu_k":
-        return case.replace(mu_k=value, mu_s=max(case.mu_s, value))
-    return case.replace(**{name: value})
+    return found("sliding_modes", answer, *messages[:1], value=values, mode=numbered)
