@@ -199,15 +199,14 @@ def check_derivatives(
     """Derivatives of where an orbit ends by parameters, against differences of steps relative to
     their values."""
     p = map_.parameters
-    how = {"may_separate": True}
-    by = ReturnMap(p, parameters=names).evaluate(x, **how).by
+    by = ReturnMap(p, parameters=names, patient=True).evaluate(x).by
     for i, name in enumerate(names):
         value = getattr(p, name)
 
         def end(change: float, name: str = name, value: float = value) -> np.ndarray:
-            other = ReturnMap(p.replace(**{name: value + change}))
+            other = ReturnMap(p.replace(**{name: value + change}), patient=True)
             # the same displacements and velocities, whatever the frequencies
-            reached = other.evaluate(x / map_.scale * other.scale, tangent=False, **how).end
+            reached = other.evaluate(x / map_.scale * other.scale, tangent=False).end
             return reached / other.scale * map_.scale
 
         expected = differences(end, step(name) * value)

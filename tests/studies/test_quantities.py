@@ -617,16 +617,6 @@ def test_separation_holds_the_range_where_contact_is_lost(
         assert 0.9896 <= found["loss_position"].item() <= 0.9896 + 0.011
 
 
-def test_the_rate_of_changes_is_that_of_the_last_ones(monkeypatch: pytest.MonkeyPatch) -> None:
-    times = np.array([0.0, 1, 2, 4, 8])
-    changes = 1e-3 * np.exp(-0.5 * times)
-    changes[0] = 1.0
-    reached = OutcomeResult(Outcome.UNDECIDED, 10.0, changes=[*changes], times=[*times])
-    monkeypatch.setattr("disc_model.stability.follower.find_outcome", lambda *_, **__: reached)
-    found = dm.outcome(P, 10, evaluation_time=0.05)
-    assert found["return_map_residual_rate"].item() == pytest.approx(-0.5)
-
-
 MOTIONS = [
     # changes of the case, the blow, range in mm, lowest force in N, separations in the last second
     ({"stretching": "clamped"}, 0.0, 0.0, 200.0, False),

@@ -161,7 +161,7 @@ def draw_critical(ax: Axes, found: Any, **look: Any) -> None:
     own = wished(look, label=case_text(found.parameters, found.name), marker=".")
     lines(ax, rate, found.name, missing="", **own)
     colour = ax.lines[-1].get_color()
-    if found.kind != "sliding" and sliding.notnull().any():
+    if sliding.notnull().any():
         name = once(ax, "steady sliding, where there is no cycle")
         ax.plot(x, sliding, "--", label=name, color=colour)
     mark_missing(ax, x[rate.isnull() & sliding.isnull()], "nothing found", colour)

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from disc_model.analysis.classify import closure, shortest_period
+from disc_model.analysis.classify import shortest_period
 from disc_model.arrays import Array, Indices
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
@@ -40,13 +40,12 @@ class Releases(NamedTuple):
 
 
 class Lock(NamedTuple):
-    """A motion that repeats: number of releases and of separations in a period, its duration (s),
-    and the largest difference (s) of an interval between releases from that one period later."""
+    """A motion that repeats: number of releases and of separations in a period, and its duration
+    (s)."""
 
     releases: int
     vibrations: int
     period: float
-    closure: float
 
 
 def releases_of(run: Result, since: tuple[float, float] | None = None) -> Releases | None:
@@ -86,28 +85,21 @@ def lock_of(releases: Releases) -> Lock | None:
         return None
     vibrations = int(releases.vibrations[:n].sum())
     period = float(releases.times[n] - releases.times[0])
-    return Lock(n, vibrations, period, closure(intervals, n))
+    return Lock(n, vibrations, period)
 
 
-def locked_cycle(
-    p: Parameters, state: State, lock: Lock, releases: Releases
-) -> tuple[Orbit, Lock] | None:
-    """The cycle that a locked motion is on, with its shortest period, and its lock: while the motion
-    still settles, its record may repeat only after several of these. None if Newton's method finds no
-    cycle at the motion that repeats after as many releases and separations."""
+def locked_cycle(p: Parameters, state: State, lock: Lock) -> Orbit | None:
+    """The cycle that a locked motion is on, with its shortest period: while the motion still settles,
+    its record may repeat only after several of these. None if Newton's method finds no cycle at the
+    motion that repeats after as many releases and separations."""
     map_ = ReturnMap(p, patient=True)
     release = map_.next_release(state)
     if not release.reached:
         return None
-    orbit = newton(map_, release.x, releases=lock.releases, may_separate=True)
+    orbit = newton(map_, release.x, releases=lock.releases)
     if orbit is None or orbit.counts.separations != lock.vibrations:
         return None
-    orbit = run_through_once(map_, orbit)
-    n = orbit.counts.releases
-    if n < lock.releases:
-        apart = closure(np.diff(releases.times), n)
-        lock = Lock(n, orbit.counts.separations, orbit.period, apart)
-    return orbit, lock
+    return run_through_once(map_, orbit)
 
 
 class PhaseMap(NamedTuple):

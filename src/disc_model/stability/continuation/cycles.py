@@ -49,8 +49,7 @@ from disc_model.stability.continuation.curve import (
     turns_between,
 )
 from disc_model.stability.cycle import SLIPPING, find_cycle, multipliers
-from disc_model.stability.return_map import ENDS, PARAMETERS, Orbit, ReturnMap
-from disc_model.stability.slipping import SlippingMap, find_slipping_cycle
+from disc_model.stability.return_map import ENDS, PARAMETERS, Orbit, ReturnMap, SlippingMap
 
 # typical values of parameters whose value in Table 1 is missing or 0
 USUAL = {
@@ -203,9 +202,7 @@ class CycleProblem:
     def follow(self, z: Array, *, tangent: bool) -> Orbit:
         """The motion from a point to its return, whatever its end."""
         x = self.section_point(z)
-        releases = max(self.releases, 1)
-        separate = self.releases > 0
-        return self.map_at(z).evaluate(x, releases=releases, tangent=tangent, may_separate=separate)
+        return self.map_at(z).evaluate(x, releases=max(self.releases, 1), tangent=tangent)
 
     def _return(self, z: Array, *, tangent: bool) -> tuple[Orbit, Array]:
         """The motion from a point to its return, and F."""
@@ -294,7 +291,7 @@ def first_cycle(
     Raises `ParameterError` if there is no cycle, or `Rejected` if it cannot be followed.
     """
     slips = kind == SLIPPING
-    cycle = find_slipping_cycle(p, tol, guess) if slips else find_cycle(p, tol, guess, releases)
+    cycle = find_cycle(p, tol, guess, releases, kind)
     may_separate = guess is not None and not slips
     if cycle.state is None or (cycle.releases > 1 and not may_separate):
         hint = f"start from another value of {name}, or give another guess"

@@ -8,7 +8,7 @@ import numpy as np
 from xarray import Dataset
 
 from disc_model.analysis.classify import Motion as MotionKind
-from disc_model.analysis.classify import closure
+from disc_model.analysis.classify import Settled
 from disc_model.data.variables import Outcome
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Start
@@ -101,7 +101,7 @@ def _at_switches(
     record = simulate(case, state.time + LATE, tol=tol, initial_state=state).raise_for_status()
     every = [*legs, record]
     firsts = [run.first_separation for run in every if not np.isnan(run.first_separation)]
-    if reached.calm is None and reached.near is not None:  # the attractor is known exactly
+    if reached.near is not None:  # the attractor is known exactly
         stick = reached.near.cycle.stick_fraction
     else:
         stick = stick_share(last if reached.calm is None else record)
@@ -127,21 +127,9 @@ def _motion_reached(case: Parameters, reached: Arrival, run: Result, tol: float)
     from disc_model.stability.attractors import regularity
 
     motion = MotionKind(reached.calm or Outcome.UNDECIDED)
-    if reached.calm is None and reached.near is not None:
+    if reached.near is not None:
         cycle = reached.near.cycle
-        kind = "separation" if cycle.separations else "stick_to_slip"
-        n = cycle.separations or cycle.releases
-        times = run.events["time"][run.events["kind"] == kind]
-        intervals = np.diff(times[times > run.final_state.time - LATE])
-        rest = closure(intervals, n) if n < len(intervals) else np.nan
-        motion = MotionKind(reached.near.kind, n, rest)
-    elif reached.calm is None and reached.settled:
+        motion = MotionKind(reached.near.kind, cycle.separations or cycle.releases)
+    elif reached.calm is None and reached.answer is Settled.SETTLED:
         motion = regularity(case, run.final_state, tol)
-    return {
-        "settled": reached.settling.answer.value,
-        "change_rate": reached.settling.rate,
-        "least_rate": reached.settling.least,
-        "kind": motion.kind,
-        "period_events": motion.period,
-        "period_residual": motion.closure,
-    }
+    return {"settled": reached.answer.value, "kind": motion.kind, "period_events": motion.period}

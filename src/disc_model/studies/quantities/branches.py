@@ -105,8 +105,7 @@ def branches(
             break
         swept["sweep_range"][way, i] = late.range
         swept["sweep_separation_rate"][way, i] = late.separation_rate
-        answer = reached.settling.answer
-        swept["sweep_settled"][way, i] = columns["sweep_settled"].flags.index(answer)
+        swept["sweep_settled"][way, i] = columns["sweep_settled"].flags.index(reached.answer)
         if way == 0 or i < lowest:
             near_start = find_cycle(result.parameters)
             if near_start.state is not None:

@@ -105,7 +105,6 @@ def lyapunov_exponents(
         initial_state=_after_transient(case, start=start, transient=transient, tol=tol),
         count=EXPONENTS,
         interval=0.05,
-        leave_out_trivial=True,
         tol=tol,
     )
     values = {
@@ -113,9 +112,7 @@ def lyapunov_exponents(
         "exponent": result.exponents,
         "exponent_error": result.errors,
         "converged": np.where(np.isfinite(result.exponents), 1 + result.converged, 0),
-        "trivial_exponent": result.trivial_exponent,
         "averaging_time": result.duration,
-        "separations": result.separations,
     }
     message = ""
     if not result.status.complete:

@@ -75,10 +75,7 @@ def hysteresis(
     for place, result, late, reached in sweep(
         case, "Omega", swept, dwell, max_dwell, evaluation_time, tol
     ):
-        stay: Row = {
-            "sweep_settled": WORDS["answers"].index(reached.settling.answer),
-            "stay": reached.stay,
-        }
+        stay: Row = {"sweep_settled": WORDS["answers"].index(reached.answer), "stay": reached.stay}
         if late is None:
             status = result.status.value
             failure = f"{value_with_unit('Omega', swept[place[1]])}: {result.message}"

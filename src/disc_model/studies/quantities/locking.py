@@ -121,17 +121,16 @@ def _read(run: Result) -> tuple[Row, Lock | None]:
 def _proof(run: Result, lock: Lock) -> Row | None:
     """Columns of the stable cycle that a motion is on; None without one."""
     from disc_model.stability.cycle import multipliers
-    from disc_model.stability.locking import locked_cycle, releases_of
+    from disc_model.stability.locking import Lock, locked_cycle
 
-    taken = releases_of(run)
-    assert taken is not None
-    found = locked_cycle(run.parameters, run.final_state, lock, taken)
-    if found is None:
+    cycle = locked_cycle(run.parameters, run.final_state, lock)
+    if cycle is None:
         return None
-    cycle, lock = found
     known = multipliers(cycle.jacobian)
     if not abs(known[0]) < 1:
         return None
+    if cycle.counts.releases < lock.releases:
+        lock = Lock(cycle.counts.releases, cycle.counts.separations, cycle.period)
     real = known[np.abs(known.imag) <= 1e-9 * np.abs(known)].real
     return {
         **_columns_of(lock),
@@ -148,5 +147,4 @@ def _columns_of(lock: Lock) -> Row:
         "period_releases": lock.releases,
         "period_separations": lock.vibrations,
         "period": lock.period,
-        "period_residual": lock.closure,
     }

@@ -6,7 +6,6 @@ from __future__ import annotations
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
 from xarray import Dataset
 
 from disc_model.data.variables import Outcome
@@ -25,7 +24,6 @@ _TIMES = (
     "evaluation_time={0.evaluation_time:g} must be <= after_separation={0.after_separation:g} and <= "
     "horizon={0.horizon:g}"
 )
-FEWEST = 4  # least number of checks of a motion that give a rate
 
 
 def _late(
@@ -117,8 +115,6 @@ def outcome(
         "outcome": reached.word,
         "first_separation": reached.timed_separation,
         "time_reached": reached.time,
-        "cycle_distance": reached.distance,
-        **_changes(reached),
     }
     if late is not None:
         values |= asdict(late)
@@ -129,18 +125,4 @@ def outcome(
         message = last.message
     if reached.outcome is Outcome.SEPARATION and result is not None:
         values["time_reached"] = result.final_state.time
-    elif reached.outcome is not None and reached.time < horizon:
-        values["left_at"] = reached.time
     return found("outcome", values, message)
-
-
-def _changes(reached: OutcomeResult) -> dict[str, float]:
-    """The last difference of successive cycles, and its growth rate."""
-    if not reached.changes:
-        return {}
-    shown = {"return_map_residual": reached.changes[-1]}
-    changes = np.array(reached.changes[-FEWEST:])
-    if len(changes) == FEWEST and np.all(changes > 0):
-        rate, _ = np.polyfit(reached.times[-FEWEST:], np.log(changes), 1)
-        shown["return_map_residual_rate"] = float(rate)
-    return shown
