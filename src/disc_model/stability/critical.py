@@ -12,7 +12,7 @@ import numpy as np
 import xarray as xr
 from pydantic import Field
 
-from disc_model.arrays import Array, EqualByValue, Mask
+from disc_model.arrays import Array, EqualByValue, Indices, Mask
 from disc_model.data.variables import (
     OF_RESULTS,
     STABLE_CYCLES,
@@ -99,7 +99,7 @@ class Critical(EqualByValue):
     period: Array
 
     @property
-    def _changes(self) -> Array:
+    def _changes(self) -> Indices:
         """Places in `values` just before the changes of stability."""
         return np.flatnonzero(self.stable[1:] != self.stable[:-1])
 

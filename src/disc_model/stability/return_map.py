@@ -352,19 +352,17 @@ class ReturnMap:
         write_state(self._case, state, self._state)
         return self._coordinates()
 
-    def point_of(self, rows: Array) -> Array:
+    def point_of(self, rows: Any) -> Any:
         """Coordinates on the section of a state, or of a change of one, in the rows of
-        `SteadySliding.jacobian`."""
+        `SteadySliding.jacobian`; complex for a complex change."""
         modes = mode_arrays(self.parameters)
         (a, alpha, b, beta), slider, height = split_rows(modes, rows)
-        column = np.zeros(self._tangent.rows)
-        for places, values in zip(
-            motion.mode_places(modes.diameters), (a, b, alpha, beta), strict=True
-        ):
-            exists = places >= 0
-            column[places[exists]] = values[exists]
+        column = np.zeros(self._tangent.rows, rows.dtype)
+        places = np.concatenate(motion.mode_places(modes.diameters))
+        values = np.concatenate([a, b, alpha, beta])
+        column[places[places >= 0]] = values[places >= 0]
         column[self._rows[len(self.diameters) :]] = [*slider[: len(self.slider)], *height]
-        return np.asarray(column[self._rows] * self.scale, dtype=float)
+        return column[self._rows] * self.scale
 
     def state(self, x: Array) -> State:
         """The point `x` of the section as a `State` (time 0, at the end of stick)."""

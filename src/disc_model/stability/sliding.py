@@ -18,7 +18,7 @@ membrane; its equilibrium is followed from that of no load.
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from types import FunctionType, ModuleType, SimpleNamespace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -109,8 +109,8 @@ class SteadySliding(Summarised, EqualByValue):
     eigenvalues : 1/s, complex, largest real part first; (4 per pair of modes + 2 per axisymmetric mode + 2,),
         plus 2 on a compliant contact
     growth_rate : 1/s, largest real part of the eigenvalues, and exactly 0 where that is nothing but rounding
-    jacobian : Jacobian of the equations of slip; rows a and alpha of all modes, b and beta of the pairs, psi, f, and
-        u, u' on a compliant contact
+    rows, jacobian : the state, and the Jacobian of the equations of slip; rows a and alpha of all modes, b and beta of
+        the pairs, psi, f, and u, u' on a compliant contact
     parameters : as given to `steady_sliding`
     rates : rad/s, (n,), rates g over the material of all equilibria that were found, ascending; `rate` is that of
         this one, Omega unless friction moves the surface
@@ -126,6 +126,7 @@ class SteadySliding(Summarised, EqualByValue):
     beta: Array = field(default_factory=lambda: np.zeros(0), repr=False)
     eigenvalues: ComplexArray = field(default_factory=lambda: np.zeros(0, complex), repr=False)
     growth_rate: float = math.nan
+    rows: Array = field(default_factory=lambda: np.zeros(0), repr=False)
     jacobian: Array = field(default_factory=lambda: np.zeros((0, 0)), repr=False)
     parameters: Parameters | None = None
     rates: Array = field(default_factory=lambda: np.zeros(0), repr=False)
@@ -154,15 +155,6 @@ class SteadySliding(Summarised, EqualByValue):
         yield "unstable modes", growing.size if self.eigenvalues.size else ""
         frequencies = [number_text(value.imag / math.tau, "Hz") for value in growing]
         yield "growing frequencies", ", ".join(frequencies)
-
-    @property
-    def rows(self) -> Array:
-        """The equilibrium in the rows of the Jacobian."""
-        p = self.parameters
-        assert p is not None
-        height = (height_of_slider(p, self), 0.0) if contact_compliance(p) else ()
-        disc = (self.a, self.alpha, self.b, self.beta)
-        return np.asarray(join_rows(mode_arrays(p), disc, (self.psi, p.Omega), height), float)
 
     @property
     def frequency(self) -> float:
@@ -263,15 +255,17 @@ def steady_sliding(case: Parameters) -> SteadySliding:
     >>> print(sliding.message, f"{sliding.growth_rate:.4f} 1/s")
     steady sliding with P = 384.977 N, not stable 0.0339 1/s
     """
-    sliding = _equilibrium(case)
-    return _with_eigenvalues(sliding, np.linalg.eigvals(sliding.jacobian))
+    status, slips = _equilibria(case)
+    jacobian = slips[0].jacobian if slips else np.zeros((0, 0))
+    return _described(case, status, slips, np.linalg.eigvals(jacobian))
 
 
-def _equilibrium(case: Parameters) -> SteadySliding:
-    """Steady sliding without its eigenvalues, or why there is none."""
+def _equilibria(case: Parameters) -> tuple[SlidingStatus, list["_Slip"]]:
+    """All equilibria that are found, that whose rate is nearest to the drive's first; or why there is
+    none."""
     raise_faults(foreign_case(case))
     if case.Omega == 0:
-        return _absent(case, SlidingStatus.AT_REST)
+        return SlidingStatus.AT_REST, []
     disc = _Response(case)
     linear = disc.equilibria()
     every = [slip for slip in map(disc.slip_at, linear) if slip is not None]
@@ -279,67 +273,55 @@ def _equilibrium(case: Parameters) -> SteadySliding:
     carried.sort(key=lambda each: abs(each.rate - case.Omega))
     if not carried:
         if not case.N > 0:
-            return _absent(case, SlidingStatus.NO_LOAD)
-        return _absent(case, SlidingStatus.NO_CONTACT if every else SlidingStatus.NOT_FOUND)
-    found = carried[0]
-    if found.denominator <= 1e-6:
-        return _absent(case, SlidingStatus.PARADOX)
+            return SlidingStatus.NO_LOAD, []
+        return (SlidingStatus.NO_CONTACT if every else SlidingStatus.NOT_FOUND), []
+    if carried[0].denominator <= 1e-6:
+        return SlidingStatus.PARADOX, []
     # without a spring, friction at this speed and the slope must both be zero, which is exact then
     if case.k_p == 0 and any(each.H != 0 for each in linear):
-        return _absent(case, SlidingStatus.NO_SPRING)
-    return _described(case, carried, stretches=bool(disc.model.has_stretching))
-
-
-def _described(case: Parameters, carried: Sequence["_Slip"], *, stretches: bool) -> SteadySliding:
-    """Steady sliding, without its eigenvalues, at the first of some equilibria."""
-    (a, alpha, b, beta), (psi, _), _ = split_rows(mode_arrays(case), carried[0].rows)
-    if case.k_p == 0:
-        psi = math.nan
-    status = SlidingStatus.OK
-    if stretches:
-        status = SlidingStatus.FURTHER
+        return SlidingStatus.NO_SPRING, []
     if len(carried) > 1:
-        status = SlidingStatus.SEVERAL
+        return SlidingStatus.SEVERAL, carried
+    return (SlidingStatus.FURTHER if disc.model.has_stretching else SlidingStatus.OK), carried
+
+
+def _described(
+    case: Parameters, status: SlidingStatus, slips: Sequence["_Slip"], values: np.ndarray
+) -> SteadySliding:
+    """Steady sliding at the first of some equilibria, with the eigenvalues of its Jacobian, in any
+    order; or without one."""
+    if not slips:
+        return SteadySliding(status, status.advice, parameters=case)
+    slip = slips[0]
+    (a, alpha, b, beta), (psi, _), _ = split_rows(mode_arrays(case), slip.rows)
+    eigenvalues = values[np.argsort(-values.real, kind="stable")].astype(complex)
+    growth_rate = float(growth_rates(eigenvalues)[0])
+    verdict = "neutral"
+    if growth_rate > 0:
+        verdict = "not stable"
+    elif growth_rate < 0:
+        verdict = "stable"
+    symbol = "R" if case.contact_force == "normal" else "P"
+    message = f"steady sliding with {symbol} = {slip.force:.6g} N, {verdict}"
+    if status is SlidingStatus.SEVERAL:
+        message += f"; the nearest to the drive's rate of {len(slips)} equilibria"
     return SteadySliding(
         status,
-        "",
-        carried[0].force,
-        float(psi),
+        message,
+        slip.force,
+        float(psi) if case.k_p else math.nan,
         a,
         b,
         alpha,
         beta,
-        jacobian=carried[0].jacobian,
-        parameters=case,
-        rates=np.sort([each.rate for each in carried]),
-        rate=carried[0].rate,
+        eigenvalues,
+        growth_rate,
+        slip.rows,
+        slip.jacobian,
+        case,
+        rates=np.sort([each.rate for each in slips]),
+        rate=slip.rate,
     )
-
-
-def _with_eigenvalues(sliding: SteadySliding, values: np.ndarray) -> SteadySliding:
-    """Steady sliding with the eigenvalues of its Jacobian, in any order."""
-    if not sliding.status.exists or sliding.parameters is None:
-        return sliding
-    eigenvalues = values.astype(complex)
-    eigenvalues = eigenvalues[np.argsort(-eigenvalues.real, kind="stable")]
-    growth_rate = float(growth_rates(eigenvalues)[0])
-    verdict = "neutral"
-    if growth_rate != 0:
-        verdict = "not stable"
-        if growth_rate < 0:
-            verdict = "stable"
-    symbol = "P"
-    if sliding.parameters.contact_force == "normal":
-        symbol = "R"
-    message = f"steady sliding with {symbol} = {sliding.contact_force:.6g} N, {verdict}"
-    if sliding.status is SlidingStatus.SEVERAL:
-        message += f"; the nearest to the drive's rate of {len(sliding.rates)} equilibria"
-    return replace(sliding, message=message, eigenvalues=eigenvalues, growth_rate=growth_rate)
-
-
-def _absent(p: Parameters, status: SlidingStatus) -> SteadySliding:
-    """The result for a case without steady sliding."""
-    return SteadySliding(status, status.advice, parameters=p)
 
 
 # ---- The equilibrium of the disc: by the modal solve at a rate g, and a search for that rate
@@ -564,12 +546,10 @@ def split_rows(modes: Modes, rows: Any) -> tuple[Any, Any, Any]:
 
 
 def height_of_slider(p: Parameters, sliding: SteadySliding) -> float:
-    """Height u of the slider on a compliant contact in steady sliding, m."""
-    # the contact's force is that of the slider's spring: (w - u) / compliance = N + k (u - u_0)
-    compliance = contact_compliance(p)
-    load = p.N - p.k * engine_case(p).model.u_0
-    w = float(mode_arrays(p).psi @ sliding.a)
-    return (w - compliance * load) / (1 + p.k * compliance)
+    """Height u of the slider in steady sliding, m."""
+    modes = mode_arrays(p)
+    _, _, height = split_rows(modes, sliding.rows)
+    return float(height[0] if len(height) else modes.psi @ sliding.a)
 
 
 def join_rows(
@@ -640,9 +620,9 @@ def sliding_modes(p: Parameters, sliding: SteadySliding | None = None) -> Slidin
 def _sliding_and_modes(p: Parameters) -> tuple[SteadySliding, SlidingModes]:
     """Steady sliding and its modes, of which there are none without it. Values and shapes come from
     one solution of the eigenvalue problem, which takes nearly all of the time of 100 modes."""
-    sliding = _equilibrium(p)
-    values, vectors = np.linalg.eig(sliding.jacobian)
-    return _with_eigenvalues(sliding, values), _modes_of(p, values, vectors)
+    status, slips = _equilibria(p)
+    values, vectors = np.linalg.eig(slips[0].jacobian if slips else np.zeros((0, 0)))
+    return _described(p, status, slips, values), _modes_of(p, values, vectors)
 
 
 def _modes_of(p: Parameters, values: ComplexArray, vectors: ComplexArray) -> SlidingModes:
