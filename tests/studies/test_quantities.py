@@ -14,7 +14,7 @@ import xarray as xr
 from scipy import stats
 
 import disc_model as dm
-from disc_model.analysis.classify import Settled, Settling
+from disc_model.analysis.classify import Settled
 from disc_model.data.variables import OF_QUANTITIES, CycleStatus, Outcome
 from disc_model.errors import Status
 from disc_model.parameters import Parameters
@@ -334,7 +334,7 @@ def test_a_sweep_has_an_onset_and_an_end_or_says_why_not(
     rates: list[list[Any]], onset: float, offset: float, said: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def sweep(*_: Any) -> Iterator[Any]:
-        settled = attractors.Arrival(Settling(Settled.SETTLED))
+        settled = attractors.Arrival(Settled.SETTLED)
         for place in [(0, 0), (0, 1), (0, 2), (1, 2), (1, 1), (1, 0)]:
             rate = rates[place[0]][place[1]]
             late = None if rate is None else stretch(separation_rate=rate)

@@ -277,14 +277,8 @@ def critical(
         for place in changes_between(case, name, values, tol):
             look(max(place - shortest / 2, low))
             look(min(place + shortest / 2, high))
-        while wide := [
-            0.5 * (a + b)
-            for a, b in pairwise(sorted(cycles))
-            if _is_stable(cycles[a]) != _is_stable(cycles[b])
-            and b - a > shortest * (1 + 1e-9)
-            and a < 0.5 * (a + b) < b
-        ]:
-            for middle in wide:
+        while middles := middles_of_changes(cycles, shortest * (1 + 1e-9)):
+            for middle in middles:
                 look(middle)
     known = [cycles[value] for value in sorted(cycles)]
     return Critical(
@@ -308,6 +302,18 @@ def _rate_in_its_place(cycle: FloquetResult) -> float:
     if cycle.motion in ("steady_sliding", "unstable_sliding"):
         return cycle.sliding_growth_rate
     return math.nan
+
+
+def middles_of_changes(cycles: Mapping[float, FloquetResult], shortest: float) -> list[float]:
+    """The middles of neighbouring values between which stability changes, unless they are the
+    `shortest` step apart."""
+    changes = [
+        (low, high)
+        for low, high in pairwise(sorted(cycles))
+        if _is_stable(cycles[low]) != _is_stable(cycles[high])
+    ]
+    middles = [(0.5 * (low + high), low, high) for low, high in changes if high - low > shortest]
+    return [middle for middle, low, high in middles if low < middle < high]
 
 
 def changes_between(

@@ -62,7 +62,6 @@ LARGEST_RATE_ERROR = 0.5  # of the growth rate, relative to it: it decides the s
 LARGEST_PERIOD = 8  # releases in a period of cycles that are sought, to limit the time
 LINGERS = 1e-3  # largest change over a period of a motion that stays near an unstable cycle
 RISE = 1.5  # factor between changes of periods that shows growth
-LARGEST_OUTSIDE = 0.25  # share of a departure outside the leading eigenspace
 SLOW_DEPARTURE = 0.2  # growth rate, 1/s, up to which a departure is extrapolated
 # shares of `NEAR` up to which it is, as long as its growth rate differs from the multiplier's by no
 # more than this, relative
@@ -99,12 +98,6 @@ class NearCycle:
         """Left eigenvector of the leading multiplier, (n,): its product with a distance is the
         multiplier's part of it."""
         return _leading(self.jacobian.T, np.abs)
-
-    @cached_property
-    def right(self) -> ComplexArray:
-        """Right eigenvector of the leading multiplier, (n,), whose product with `leading` is one."""
-        right = _leading(self.jacobian, np.abs)
-        return np.asarray(right / (self.leading @ right), dtype=complex)
 
     @property
     def kind(self) -> Outcome:
@@ -169,8 +162,9 @@ class NearCycle:
         tested = TEST_TIMES[-1][-1]  # the test after it ends within `NEAR`
         factor = math.exp(rate * tested)
         last = max(0, math.ceil((latest - self.time) / period))
-        part = float(abs(self.leading @ self.distance)) * float(np.linalg.norm(self.right))
-        part = max(part, sys.float_info.min)  # for its logarithm
+        # length of the leading multiplier's part of the distance
+        unit = abs(self.leading @ _leading(self.jacobian, np.abs))
+        part = max(float(abs(self.leading @ self.distance) / unit), sys.float_info.min)
         reached = None
         for share in DEPARTURES:
             size = share * NEAR / factor * self.map.deflection
@@ -178,12 +172,12 @@ class NearCycle:
             if periods <= 0:
                 continue
             distance = np.linalg.matrix_power(self.jacobian, periods) @ self.distance
-            if self._share_outside(distance) > LARGEST_OUTSIDE:
+            if np.linalg.norm(distance) > 2 * size:
                 continue  # parts of other multipliers have not decayed yet
             orbit = self._advance(self.x + distance, max(1, round(tested / period)))
-            later = orbit.end - self.x
-            if not (orbit.returned and self._share_outside(later) <= LARGEST_OUTSIDE):
+            if not orbit.returned:
                 break
+            later = orbit.end - self.x
             grown = math.log(abs(self.leading @ later) / abs(self.leading @ distance))
             excess = grown / orbit.period / rate - 1
             if abs(excess) > LARGEST_EXCESS:
@@ -217,14 +211,6 @@ class NearCycle:
             expected = np.linalg.matrix_power(self.jacobian, count) @ expected
             yield x - self.x, expected, count * self.cycle.period
             done += count
-
-    def _share_outside(self, distance: Array) -> float:
-        """Share of a distance from the cycle that lies outside the leading multiplier's
-        eigenspace."""
-        is_real = self.cycle.multipliers[0].imag == 0
-        eigenspace = self.right if is_real else 2 * self.right  # with that of the conjugate
-        within = np.real((self.leading @ distance) * eigenspace)
-        return float(np.linalg.norm(distance - within) / np.linalg.norm(distance))
 
 
 def _leading(matrix: Array, size: Callable[[ComplexArray], Array]) -> ComplexArray:
@@ -536,21 +522,29 @@ class _Search:
                 return result
 
             run = self._simulate(result, leg, end)
-            if run.status is Status.STOPPED:
-                result.outcome = Outcome.SEPARATION
-                result.first_separation = run.first_separation
-                return result
-            if not run.status.complete:
-                result.failed = run
-                return result
             examined = self.early or result.time >= end
-            if examined and (calm := find_equilibrium(self.p, run)):
-                return replace(result, outcome=calm, near=None)
+            if self._ends_with(result, run, examined):
+                return result
             if examined and not departs and slips_on(run):
                 departs = follows_sliding(self.p, run.final_state)
             # a cycle that it follows from here on
             cycle = self._cycle_at(result, run.final_state, examined)
             leg = min(2 * leg, LONGEST_LEG)
+
+    def _ends_with(self, result: OutcomeResult, run: Result, examined: bool) -> bool:
+        """Whether the search ends with a leg: by separation, failure, rest or steady sliding."""
+        if run.status is Status.STOPPED:
+            result.outcome = Outcome.SEPARATION
+            result.first_separation = run.first_separation
+            return True
+        if not run.status.complete:
+            result.failed = run
+            return True
+        if examined and (calm := find_equilibrium(self.p, run)):
+            result.outcome = calm
+            result.near = None
+            return True
+        return False
 
     def _extrapolate(self, result: OutcomeResult, near: NearCycle) -> bool:
         """Go on from where a slow departure ceases to be linear; whether that is later."""

@@ -168,7 +168,7 @@ class SteadySliding(Summarised, EqualByValue):
         """Oscillating modes that grow or nearly do, with a damping ratio below 0.0005: the fastest first.
 
         Columns are those numbers of `SlidingModes` that each mode has one of: frequency (Hz), growth_rate
-        (1/s), damping_ratio, diameters, circles, and shares of the energy: disc, across, in_plane.
+        (1/s), damping_ratio, diameters, circles, and the disc's share of the energy.
         """
         from pandas import DataFrame  # slow to import, as most of what follows does without
 
@@ -585,7 +585,7 @@ class SlidingModes:
     damping_ratio : (n,), negative for a mode that grows, and 0 where the growth rate is
     diameters, circles : (n,), nodal diameters and circles of the disc's modes with most energy; -1 if the slider's
         in-plane motion has most
-    disc, across, in_plane : (n,), shares of the energy: of the disc, and of the slider across the disc and in its plane
+    disc : (n,), the disc's share of the energy; the rest is the slider's, across the disc and in its plane
     forward : (n,), share of these modes' energy in waves that travel with the slider, seen at f - l Omega / 2 pi
     shapes : (rows of `SteadySliding.jacobian`, n)
     """
@@ -596,16 +596,11 @@ class SlidingModes:
     diameters: Indices
     circles: Indices
     disc: Array
-    across: Array
-    in_plane: Array
     forward: Array
     shapes: ComplexArray = field(repr=False)
 
 
-TABLE = (
-    *("frequency", "growth_rate", "damping_ratio", "diameters", "circles"),
-    *("disc", "across", "in_plane"),
-)
+TABLE = ("frequency", "growth_rate", "damping_ratio", "diameters", "circles", "disc")
 """Columns of the table of modes."""
 
 
@@ -651,7 +646,6 @@ def _modes_of(p: Parameters, values: ComplexArray, vectors: ComplexArray) -> Sli
     u = height[0] if len(height) else modes.psi @ shape
     across = np.abs(u) ** 2 * (p.k + p.m * np.abs(values) ** 2)
     in_plane = np.sum(np.abs(slider) ** 2, axis=0)
-    whole = disc + across + in_plane
     slides = in_plane > disc
     return SlidingModes(
         frequency=values.imag / (2 * math.pi),
@@ -659,9 +653,7 @@ def _modes_of(p: Parameters, values: ComplexArray, vectors: ComplexArray) -> Sli
         damping_ratio=np.asarray((0.0 - growth_rate) / np.abs(values), dtype=float),
         diameters=np.where(slides, -1, diameters).astype(np.int64),
         circles=np.where(slides, -1, circles).astype(np.int64),
-        disc=disc / whole,
-        across=across / whole,
-        in_plane=in_plane / whole,
+        disc=disc / (disc + across + in_plane),
         forward=forward,
         shapes=vectors,
     )
