@@ -84,7 +84,7 @@ def test_a_run_is_drawn_and_saved(command: Command, tmp_path: Path) -> None:
 def test_tables_have_the_numbers_of_the_functions(command: Command) -> None:
     case = dm.Parameters(N=385, Omega=15)
     rate = dm.floquet(case).growth_rate
-    assert f"growth rate         {rate:.6g} 1/s" in command.out("floquet", "N=385", "Omega=15")
+    assert f"growth rate {rate:.6g} 1/s" in command.out("floquet", "N=385", "Omega=15")
     sliding = command.out("sliding", "N=385", "Omega=15")
     for value in dm.steady_sliding(case).eigenvalues.real:
         assert f"{value:.6g}" in sliding

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from disc_model import Parameters, floquet, simulate
-from disc_model.stability.cycle import bifurcation_type, cycle_of
+from disc_model.stability.cycle import cycle_of
 from disc_model.stability.return_map import PARAMETERS, RETURNED, Counts, Orbit, ReturnMap, newton
 from tests.contact_laws import ALL_LAWS, COMPILES, COUPLE, FALLING, LAWS
 from tests.engine.test_saltation import differences
@@ -228,11 +228,6 @@ def test_the_derivative_by_E_of_a_plate_with_a_damping_ratio() -> None:
     """Its damping rises with the root of E, and that of a plate with D_star not at all."""
     map_ = ReturnMap(P.replace(damping_ratio=0.05))
     check_derivatives(map_, map_.static, lambda name: 1e-4, ("E", "N"))
-
-
-def test_a_multiplier_tells_the_bifurcation() -> None:
-    kinds = [bifurcation_type(mu) for mu in (1.1 + 0j, -1.1 + 0j, 0.8 + 0.8j)]
-    assert kinds == ["fold", "period_doubling", "neimark_sacker"]
 
 
 @pytest.mark.parametrize(("multiplier", "rate"), [(0.0, -math.inf), (-2.0, math.log(2))])

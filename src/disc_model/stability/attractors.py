@@ -436,25 +436,18 @@ def random_perturbation(p: Parameters, state: State, energy: float, key: Sequenc
     modes = mode_arrays(p)
     draw = np.random.default_rng(list(key)).standard_normal((4, len(modes.omega)))
     draw[2:, modes.diameters == 0] = 0.0
-    a = draw[0] / modes.omega
-    alpha = draw[1]
-    b = draw[2] / modes.omega
-    beta = draw[3]
+    ones = np.ones(len(modes.omega))
+    a, alpha, b, beta = draw / [modes.omega, ones, modes.omega, ones]
     u = float(modes.psi @ a)
     velocity = float(modes.psi @ alpha)
     surface = float(tangential_amplitudes(p) @ beta)
     squares = p.k * u**2 + p.m * velocity**2 + p.m * surface**2
-    energy_drawn = 0.5 * (float(np.sum(draw**2)) + squares)
-    size = math.sqrt(energy / energy_drawn)
+    size = math.sqrt(energy / (0.5 * (float(np.sum(draw**2)) + squares)))
     slope = float(np.sum(modes.diameters * modes.psi * b))
+    changes = {"a": a, "b": b, "alpha": alpha, "beta": beta, "u": u, "f": surface / p.r_0}
+    changes["u_velocity"] = velocity + slip_rate(p, state) * slope
     return state.replace(
-        a=state.a + size * a,
-        b=state.b + size * b,
-        alpha=state.alpha + size * alpha,
-        beta=state.beta + size * beta,
-        f=state.f + size * surface / p.r_0,
-        u=state.u + size * u,
-        u_velocity=state.u_velocity + size * (velocity + slip_rate(p, state) * slope),
+        **{name: getattr(state, name) + size * change for name, change in changes.items()}
     )
 
 

@@ -5,7 +5,6 @@ because stick resets f to 0.
 """
 
 import math
-from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Annotated, Any, Final, Literal
@@ -15,9 +14,9 @@ from pydantic import Field, InstanceOf
 from scipy.optimize import brentq
 
 from disc_model.arrays import Array, ComplexArray, EqualByValue
-from disc_model.data.variables import GIVE_A_GUESS, CycleStatus, values_text, with_advice
+from disc_model.data.variables import GIVE_A_GUESS, CycleStatus, with_advice
 from disc_model.disc.plate import mode_arrays
-from disc_model.display import Summarised, counted, drawings, number_text
+from disc_model.display import counted, drawings
 from disc_model.engine.jit.cache import compiling
 from disc_model.errors import DiscModelError, require
 from disc_model.parameters import Parameters
@@ -49,7 +48,7 @@ class CycleError(DiscModelError):
 
 
 @dataclass(frozen=True, eq=False)
-class FloquetResult(Summarised, EqualByValue):
+class FloquetResult(EqualByValue):
     """A cycle of a case.
 
     Attributes
@@ -66,8 +65,6 @@ class FloquetResult(Summarised, EqualByValue):
     stick_time, slip_time : s, durations of stick and of slip, means of the period's releases; a
         `slip_time` of nan where contact is lost
     state : on the section, at the end of stick; of a cycle that slips all the time, where the spring is longest
-    bifurcation_type : bifurcation if the leading multiplier crosses the unit circle: "fold" (real, positive),
-        "period_doubling" (real, negative) or "neimark_sacker" (complex); "" without a cycle
     releases, backward_releases, reversals, separations, sticks : numbers of these events in a period
     residual : residual of the return map, relative to the norm of the static deflection
     kind : "stick_slip", or "slipping" for a cycle that slips all the time
@@ -85,7 +82,6 @@ class FloquetResult(Summarised, EqualByValue):
     growth_rate: float = math.nan
     stick_fraction: float = math.nan
     state: State | None = None
-    bifurcation_type: str = ""
     releases: int = 0
     backward_releases: int = 0
     reversals: int = 0
@@ -101,21 +97,6 @@ class FloquetResult(Summarised, EqualByValue):
             numbers = f"growth rate {self.growth_rate:.6g} 1/s, period {self.period:.9g} s"
             summary = f"{numbers}, {len(self.multipliers)} multipliers"
         return f"FloquetResult(N={p.N:g} N, Omega={p.Omega:g} rad/s: {summary})"
-
-    def _summary(self) -> Iterator[tuple[str, object]]:
-        tendency = "grow"
-        if self.stable:
-            tendency = "die out"
-        yield "case", values_text(dict(self.parameters))
-        yield "status", self.message  # with the period and its events
-        yield "advice", "" if self.status is CycleStatus.OK else self.status.advice
-        rate_with_verdict = number_text(self.growth_rate, f"1/s (small disturbances {tendency})")
-        yield "growth rate", rate_with_verdict
-        yield "share of stick", number_text(self.stick_fraction, "", 3)
-        for leading in self.multipliers[:1]:
-            yield "leading multiplier", f"{leading:.6g}, modulus {abs(leading):.9g}"
-        rate = self.sliding.rate_text
-        yield "steady sliding", f"growth rate {rate}" if rate else self.sliding.message
 
     @cached_property
     def sliding(self) -> SteadySliding:
@@ -203,8 +184,7 @@ def floquet(
     guess : state, such as the last one of a simulation; the cycle is sought near the next release after it and may
         lose contact
     releases : number of releases in a period of the cycle near that state
-    kind : "stick_slip"; or "slipping" for the smallest cycle round steady sliding, or near a given state in slip, that
-        slips all the time, in contact
+    kind : "stick_slip"; or "slipping" for the smallest cycle round steady sliding that slips all the time, in contact
 
     Returns
     -------
@@ -243,10 +223,17 @@ def floquet(
 
 
 def require_single(guess: State | None, releases: int, kind: str) -> None:
-    """Raise `ParameterError` if several releases are asked of a cycle that has one."""
-    single = guess is None or kind == SLIPPING
-    rule = "must be 1 without a state to look near, and of a cycle in slip"
-    require((releases == 1 or not single, "releases", releases, rule))
+    """Raise `ParameterError` if several releases are asked of a cycle that has one, or a cycle in slip
+    is sought near a state."""
+    require(
+        (kind != SLIPPING or guess is None, "guess", guess, "must be None for a cycle in slip"),
+        (
+            releases == 1 or guess is not None,
+            "releases",
+            releases,
+            "must be 1 without a state to look near",
+        ),
+    )
 
 
 def find_cycle(
@@ -260,7 +247,7 @@ def find_cycle(
     next one after the state `guess`, where it has `releases` releases, and may lose contact; or the
     one that slips all the time."""
     if kind == SLIPPING:
-        return _slipping_cycle(p, tol, guess)
+        return _slipping_cycle(p, tol)
     if not may_stick_and_slip(p):
         if never_pulls(p):
             return no_cycle(p, tol, CycleStatus.AT_REST, "the slider stays where it is on the disc")
@@ -337,23 +324,16 @@ def _without_return(map_: ReturnMap, outcome: int, duration: float) -> FloquetRe
     return no_cycle(map_.parameters, map_.tol, WITHOUT_RETURN[end], reason)
 
 
-def _slipping_cycle(p: Parameters, tol: float, guess: State | None) -> FloquetResult:
-    """The cycle in slip near a state, or the smallest one round steady sliding."""
-    if min(p.N, p.k_p) <= 0 or not steady_sliding(p).status.exists:
-        reason = "there is no steady sliding on a spring"
-        return no_cycle(p, tol, CycleStatus.NO_CYCLE, reason, SLIPPING)
-    map_ = SlippingMap(p, tol)
-    orbit = None
-    where = "near the given state"
-    if guess is None:
-        where = "round steady sliding"
+def _slipping_cycle(p: Parameters, tol: float) -> FloquetResult:
+    """The smallest cycle round steady sliding that slips all the time."""
+    reason = "there is no steady sliding on a spring"
+    if min(p.N, p.k_p) > 0 and steady_sliding(p).status.exists:
+        map_ = SlippingMap(p, tol)
         orbit = smallest_in_slip(map_)
-    elif (passage := map_.next_release(guess)).reached:
-        orbit = newton(map_, passage.x)
-    if orbit is None:
-        reason = f"no cycle {where} slips all the time"
-        return no_cycle(p, tol, CycleStatus.NO_CYCLE, reason, SLIPPING)
-    return cycle_of(map_, orbit, SLIPPING)
+        if orbit is not None:
+            return cycle_of(map_, orbit, SLIPPING)
+        reason = "no cycle round steady sliding slips all the time"
+    return no_cycle(p, tol, CycleStatus.NO_CYCLE, reason, SLIPPING)
 
 
 def smallest_in_slip(map_: SlippingMap) -> Orbit | None:
@@ -457,7 +437,6 @@ def cycle_of(map_: ReturnMap, orbit: Orbit, kind: str = STICK_SLIP) -> FloquetRe
         growth_rate=growth_rate,
         stick_fraction=orbit.stick_time / orbit.period,
         state=map_.state(orbit.start),
-        bifurcation_type=bifurcation_type(leading),
         **counts._asdict(),
         residual=orbit.residual / map_.deflection,
         kind=kind,
@@ -473,12 +452,3 @@ def multipliers(jacobian: Array) -> ComplexArray:
     values = np.linalg.eigvals(jacobian).astype(complex)
     moduli = np.round(np.abs(values), 14)
     return values[np.lexsort((-values.imag, -values.real, -moduli))]
-
-
-def bifurcation_type(multiplier: complex) -> str:
-    """Kind of bifurcation when a multiplier crosses the unit circle."""
-    if multiplier.imag != 0:
-        return "neimark_sacker"
-    if multiplier.real > 0:
-        return "fold"
-    return "period_doubling"

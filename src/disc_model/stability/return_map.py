@@ -426,7 +426,7 @@ class SlippingMap(ReturnMap):
         start = np.array(x, dtype=float)
         self._put(start)
         acceleration = self._rates()[-1]
-        outcome, period, _ = self._follow_to_passage()
+        outcome, period = self._follow_to_passage()
         # the amplitude of an oscillation about steady sliding
         smallest = math.tau * SMALLEST_CYCLE * self.model.Omega
         if outcome == RETURNED and acceleration * period < smallest:
@@ -445,12 +445,6 @@ class SlippingMap(ReturnMap):
         by_start, by = changes[:, : self.size], changes[:, self._first :][:, : len(self._names)]
         period -= self._excess / acceleration
         return Orbit(outcome, period, 0.0, NO_EVENTS, start, end, by_start, by)
-
-    def next_release(self, start: State) -> Passage:
-        """The next passage of the motion from a state; not reached if it sticks, loses contact or
-        slides steadily."""
-        write_state(self._case, start, self._state)
-        return self._follow_to_passage()
 
     def state(self, x: Array) -> State:
         """The point `x` of the section as a `State` in slip, at time 0."""
@@ -495,8 +489,9 @@ class SlippingMap(ReturnMap):
             return code
         return STOPS if events.any() else RETURNED
 
-    def _follow_to_passage(self) -> Passage:
-        """Follow the motion from the present state to the next passage through the section."""
+    def _follow_to_passage(self) -> tuple[int, float]:
+        """Follow the motion from the present state to the next passage through the section: exit code
+        and time (s)."""
         model = self.model
         slowest = math.tau * math.sqrt(model.m / model.k_p)
         fastest = max(model.stiffness.max(), model.stiffness0.max(initial=0), model.k_p / model.m)
@@ -512,13 +507,13 @@ class SlippingMap(ReturnMap):
             motion.copy_state(self._state, self._before)
             code = self._advance(piece)
             if code != RETURNED:
-                return Passage(code, number * piece, NOWHERE)
+                return code, number * piece
             if is_slower and self._excess >= 0:
                 time = float(brentq(excess_after, 0.0, piece, xtol=SAME_TIME * piece))
                 excess_after(time)
-                return Passage(RETURNED, number * piece + time, self._section.end[:-1].copy())
+                return RETURNED, number * piece + time
             is_slower = self._excess < 0
-        return Passage(VANISHED, LONGEST * slowest, NOWHERE)
+        return VANISHED, LONGEST * slowest
 
 
 # ---- Fixed points

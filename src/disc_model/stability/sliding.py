@@ -17,7 +17,7 @@ membrane; its equilibrium is followed from that of no load.
 """
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from types import FunctionType, ModuleType, SimpleNamespace
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -26,11 +26,10 @@ import numpy as np
 from scipy.optimize import brentq
 
 from disc_model.arrays import Array, ComplexArray, EqualByValue, Indices
-from disc_model.data.variables import values_text
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import Modes, modal_damping, mode_arrays, tangential_amplitudes
 from disc_model.disc.stretched import membrane_forces
-from disc_model.display import Summarised, drawings, number_text
+from disc_model.display import drawings, number_text
 from disc_model.engine import laws
 from disc_model.errors import StatusBase, raise_faults, require
 from disc_model.parameters import Parameters, foreign_case
@@ -97,7 +96,7 @@ class SlidingStatus(StatusBase):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class SteadySliding(Summarised, EqualByValue):
+class SteadySliding(EqualByValue):
     """The sliding equilibrium.
 
     Attributes
@@ -135,7 +134,7 @@ class SteadySliding(Summarised, EqualByValue):
     def __repr__(self) -> str:
         if not self.eigenvalues.size:
             return f"SteadySliding({self.message})"
-        fastest = f"growth rate {self.rate_text} at {number_text(self.frequency, 'Hz')}"
+        fastest = f"growth rate {self.growth_rate:.6g} 1/s at {number_text(self.frequency, 'Hz')}"
         return f"SteadySliding({self.message}, {fastest}, {self.eigenvalues.size} eigenvalues)"
 
     def __str__(self) -> str:
@@ -143,18 +142,6 @@ class SteadySliding(Summarised, EqualByValue):
         if len(table):
             return f"{self!r}\n{table.to_string()}"
         return repr(self)
-
-    def _summary(self) -> Iterator[tuple[str, object]]:
-        if self.parameters is not None:
-            yield "case", values_text(dict(self.parameters))
-        yield "status", self.message
-        yield "contact force", number_text(self.contact_force, "N")
-        yield "angle psi", number_text(self.psi, "rad")
-        yield "growth rate", self.rate_text
-        growing = self.growing
-        yield "unstable modes", growing.size if self.eigenvalues.size else ""
-        frequencies = [number_text(value.imag / math.tau, "Hz") for value in growing]
-        yield "growing frequencies", ", ".join(frequencies)
 
     @property
     def frequency(self) -> float:
@@ -179,11 +166,6 @@ class SteadySliding(Summarised, EqualByValue):
             table = DataFrame({name: getattr(found, name) for name in TABLE})
         table = table[table["damping_ratio"] < NEARLY]
         return table.sort_values("growth_rate", ascending=False, ignore_index=True)
-
-    @property
-    def rate_text(self) -> str:
-        """The growth rate with its unit; "" if there is none."""
-        return number_text(self.growth_rate, "1/s")
 
     @property
     def stable(self) -> bool:

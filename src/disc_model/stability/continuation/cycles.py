@@ -290,9 +290,8 @@ def first_cycle(
 
     Raises `ParameterError` if there is no cycle, or `Rejected` if it cannot be followed.
     """
-    slips = kind == SLIPPING
     cycle = find_cycle(p, tol, guess, releases, kind)
-    may_separate = guess is not None and not slips
+    may_separate = guess is not None
     if cycle.state is None or (cycle.releases > 1 and not may_separate):
         hint = f"start from another value of {name}, or give another guess"
         rule = f"must have a cycle, but the search ended with {cycle.message}; {hint}"
@@ -300,7 +299,7 @@ def first_cycle(
     order = 0
     if may_separate:
         order = cycle.releases
-    section = SlippingMap if slips else None
+    section = SlippingMap if kind == SLIPPING else None
     problem = CycleProblem(p, [name], [parameter_scale(p, name, farthest)], tol, order, section)
     z = problem.place(problem.reference.point(cycle.state))
     return problem, curve_point(*cycle_at_value(problem, z), parameter_row(len(z), 1.0))
