@@ -163,10 +163,8 @@ def test_a_periodic_attractor_is_known_by_its_fixed_point() -> None:
     # one separation more or less in a leg of five seconds
     in_a_period = separating.period * separating.segment.separation_rate
     assert in_a_period == pytest.approx(1, abs=1 / (5 * 135))
-    assert separating.growth_rate < 0
     assert quiet.kind == Outcome.STICK_SLIP
     assert quiet.segment.separation_rate == 0
-    assert quiet.growth_rate == pytest.approx(-0.0674, rel=1e-2)
     assert quiet.points is not None
 
 

@@ -351,7 +351,7 @@ def test_a_sweep_has_an_onset_and_an_end_or_says_why_not(
 # ---- Basins
 
 CALM = stretch(u_min=0, u_max=1e-5, separation_rate=0, stick_fraction=0.3, separation_fraction=0)
-NEAR = Attractor(Outcome.STICK_SLIP, CALM, 0.015, 1, -0.1, np.zeros((1, 2)))
+NEAR = Attractor(Outcome.STICK_SLIP, CALM, 0.015, 1, np.zeros((1, 2)))
 APART = Attractor(Outcome.SEPARATING, stretch(u_min=0, u_max=0.03))
 UNDECIDED = OutcomeResult(Outcome.UNDECIDED, 60.0)
 FAILED = OutcomeResult(None, 1.0, failed=LOST)

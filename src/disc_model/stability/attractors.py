@@ -414,9 +414,7 @@ class Basins:
         cycle = near.cycle
         others = near.map.returns(near.x, cycle.releases - 1)
         points = np.array([near.x, *others])
-        return Attractor(
-            near.kind, segment, cycle.period, cycle.releases, cycle.growth_rate, points
-        )
+        return Attractor(near.kind, segment, cycle.period, cycle.releases, points)
 
 
 def _segment_of_sliding(p: Parameters) -> Segment:

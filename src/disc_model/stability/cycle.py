@@ -21,7 +21,7 @@ from disc_model.engine.jit.cache import compiling
 from disc_model.errors import DiscModelError, require
 from disc_model.parameters import Parameters
 from disc_model.simulation.states import State
-from disc_model.stability.return_map import ENDS, Orbit, ReturnMap, SlippingMap, newton
+from disc_model.stability.return_map import ENDS, Orbit, Passage, ReturnMap, SlippingMap, newton
 from disc_model.stability.sliding import SteadySliding, split_rows, steady_sliding
 from disc_model.units import Count, CycleTolerance, checked
 
@@ -259,11 +259,7 @@ def find_cycle(
     map_ = ReturnMap(p, tol, patient=True)
     release = map_.next_release(guess)
     if not release.reached:
-        end = ENDS[release.outcome]
-        status = CycleStatus.NO_CYCLE
-        if end == "time_over":
-            status = CycleStatus.NO_STICK_SLIP
-        return no_cycle(p, tol, status, f"the motion from the given state does not return: {end}")
+        return _without_return(map_, release, "given state")
     solution = newton(map_, release.x, releases=releases)
     if solution is None:
         without = f"no cycle with {counted(releases, 'release')} near the given state"
@@ -284,13 +280,13 @@ def cycle_from_rest(map_: ReturnMap) -> FloquetResult:
     if solution is not None:
         return cycle_of(map_, solution)
     if not start.reached:
-        return _without_return(map_, start.outcome, start.time)
+        return _without_return(map_, start)
     followed = 0
     for transient in TRANSIENTS:
         for _ in range(transient - followed):
             orbit = map_.evaluate(x, tangent=False)
             if not orbit.returned:
-                return _without_return(map_, orbit.outcome, orbit.period)
+                return _without_return(map_, Passage(orbit.outcome, orbit.period, orbit.end))
             x = orbit.end
         followed = transient
         for releases in RETURNS_TRIED:
@@ -317,10 +313,12 @@ WITHOUT_RETURN = {
 """Status of a search by the end of a motion that does not return to the section."""
 
 
-def _without_return(map_: ReturnMap, outcome: int, duration: float) -> FloquetResult:
-    """The result for a motion from the static start that ends so after a duration (s)."""
-    end = ENDS[outcome]
-    reason = f"the motion from the static start does not stick again: {end} after {duration:.3g} s"
+def _without_return(
+    map_: ReturnMap, passage: Passage, start: str = "static start"
+) -> FloquetResult:
+    """The result for a motion from a start that does not come to the section."""
+    end = ENDS[passage.outcome]
+    reason = f"the motion from the {start} does not stick again: {end} after {passage.time:.3g} s"
     return no_cycle(map_.parameters, map_.tol, WITHOUT_RETURN[end], reason)
 
 

@@ -365,14 +365,12 @@ def follows_sliding(p: Parameters, state: State) -> bool:
 @dataclass(frozen=True, eq=False)
 class Attractor:
     """Outcome of motions on an attractor, and a segment of one; of a periodic one also period (s),
-    releases in it, growth rate (1/s) and points on the section over the static deflection, shape
-    (releases, n)."""
+    releases in it, and points on the section over the static deflection, shape (releases, n)."""
 
     kind: Outcome
     segment: Segment
     period: float = np.nan
     releases: int = 0
-    growth_rate: float = np.nan
     points: Array | None = None
 
 

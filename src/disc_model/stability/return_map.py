@@ -397,15 +397,8 @@ class SlippingMap(ReturnMap):
 
     slider = ("psi",)
 
-    def __init__(
-        self,
-        p: Parameters,
-        tol: float = 1e-12,
-        parameters: tuple[str, ...] = (),
-        *,
-        patient: bool = False,
-    ) -> None:
-        super().__init__(p, tol, parameters, patient=patient)
+    def __init__(self, p: Parameters, *args: Any, **options: Any) -> None:
+        super().__init__(p, *args, **options)
         self.deflection = math.hypot(self.deflection, p.mu_s * p.N / math.sqrt(p.k_p))
         self._before = build_state(self.model)
         # the engine gives f as well, behind the coordinates
@@ -415,8 +408,8 @@ class SlippingMap(ReturnMap):
         self._section = section.Section(rows, scale, np.zeros(self.size + 1), changes)
         # changes of f on the section with each column
         self._moves = np.zeros(self._tangent.columns)
-        if "Omega" in parameters:
-            self._moves[self._first + parameters.index("Omega")] = 1.0
+        if "Omega" in self._names:
+            self._moves[self._first + self._names.index("Omega")] = 1.0
 
     @np.errstate(divide="ignore", invalid="ignore")  # where the motion does not return
     def evaluate(
