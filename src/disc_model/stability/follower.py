@@ -165,14 +165,15 @@ class NearCycle:
         # length of the leading multiplier's part of the distance
         unit = abs(self.leading @ _leading(self.jacobian, np.abs))
         part = max(float(abs(self.leading @ self.distance) / unit), sys.float_info.min)
+        farthest = NEAR * self.map.deflection
         reached = None
         for share in DEPARTURES:
-            size = share * NEAR / factor * self.map.deflection
+            size = share * farthest / factor
             periods = min(math.floor(math.log(size / part) / (rate * period)), last)
             if periods <= 0:
                 continue
             distance = np.linalg.matrix_power(self.jacobian, periods) @ self.distance
-            if np.linalg.norm(distance) > 2 * size:
+            if np.linalg.norm(distance) > min(2 * size, farthest):
                 continue  # parts of other multipliers have not decayed yet
             orbit = self._advance(self.x + distance, max(1, round(tested / period)))
             if not orbit.returned:
