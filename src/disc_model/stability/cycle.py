@@ -418,17 +418,12 @@ def cycle_of(map_: ReturnMap, orbit: Orbit, kind: str = STICK_SLIP) -> FloquetRe
     with np.errstate(divide="ignore", invalid="ignore"):
         exponents = np.asarray(np.log(values) / orbit.period, dtype=complex)
     counts = orbit.counts
-    names = ("release", "backward release", "slip reversal", "separation")
-    named = zip(counts, names, strict=False)
-    events = ", ".join(counted(count, name) for count, name in named if count)
-    course = "that slips all the time"
-    if events:
-        course = f"with {events}"
+    releases = counted(counts.releases, "release")
     return FloquetResult(
         parameters=map_.parameters,
         tol=map_.tol,
         status=CycleStatus.OK,
-        message=f"{CycleStatus.OK}: cycle of {orbit.period:.9g} s {course}",
+        message=f"{CycleStatus.OK}: cycle of {orbit.period:.9g} s with {releases}",
         period=orbit.period,
         multipliers=values,
         exponents=exponents,
