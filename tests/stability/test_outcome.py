@@ -27,10 +27,14 @@ def test_a_departure_is_where_the_simulated_motion_is(latest: float) -> None:
     assert departure is not None
     x, time = departure
     assert time < latest + near.cycle.period
-    later = near.after(time - near.time)
-    assert later is not None
+    later = near.map.evaluate(
+        near.x + near.distance,
+        releases=round((time - near.time) / near.cycle.period),
+        tangent=False,
+    )
+    assert later.returned
     # the part of the leading multiplier, since the distance rises and falls in a turn of it
-    simulated = abs(near.leading @ later.distance)
+    simulated = abs(near.leading @ (later.end - near.x))
     extrapolated = abs(near.leading @ (x - near.x))
     assert np.linalg.norm(x - near.x) <= follower.NEAR * near.map.deflection
     # the simulated motion has grown by what half the excess adds, of the second order in the

@@ -48,15 +48,10 @@ LONGEST_LEG = 160.0  # s, of later legs: the tests after each cost little beside
 NEAR = 0.1  # distance from a cycle within which a motion counts as near it: none is linear beyond
 SAME_POINT = 1e-4  # nearer fixed points are the same: known cycles differ by 0.1
 ARRIVED = 1e-8  # a motion as near to a stable cycle is on it: 10,000 times the rounding
-# errors of a long simulation, over its tolerance, in weakly damped modes: 12 were seen in the
-# paper's, 7,000 in modes of 2 kHz that decay at 0.4/s
-ERROR_OF_TOL = 10_000
 # s, at which a motion is compared with the linear one; if the first test fails, the longer one
 # resolves slower rates
 TEST_TIMES = ((0.3, 1.2), (1.5, 6.0))
 TEST_TOL = 1e-13  # of simulations in these tests, whose errors must be below `ARRIVED`
-# s, at which tests begin: near a resonance the strongly damped modes must decay first
-WAITS = (0.0, 1.5, 6.0, 15.0)
 LARGEST_ERROR = 0.1  # of the linear motion, relative to it: second order in the distance
 LARGEST_RATE_ERROR = 0.5  # of the growth rate, relative to it: it decides the sign of the rate
 LARGEST_PERIOD = 8  # releases in a period of cycles that are sought, to limit the time
@@ -82,7 +77,7 @@ class NearCycle:
     cycle, x, jacobian : the cycle, its point (n,) on the section, the return map's Jacobian there
     follows_cycle : whether the motion follows the linear map near the cycle
     distance : (n,), of the motion from `x` on the section, at `time`
-    time : s, of the motion; if it follows the linear map only after some waiting, the end of that
+    time : s, of the motion
     """
 
     cycle: FloquetResult
@@ -134,16 +129,6 @@ class NearCycle:
             _is_as_expected(self._motion(x - self.x, times), self.leading, rate, least)
             for times in TEST_TIMES
         )
-
-    def after(self, wait: float) -> "NearCycle | None":
-        """The motion after a time of about `wait` (s); None if it does not return."""
-        if not wait:
-            return self
-        periods = max(1, round(wait / self.cycle.period))
-        orbit = self._advance(self.x + self.distance, periods, coarse=False)
-        if not orbit.returned:
-            return None
-        return replace(self, distance=orbit.end - self.x, time=self.time + orbit.period)
 
     def extrapolate(self, latest: float) -> tuple[Array, float] | None:
         """Where a motion that slowly leaves an unstable cycle comes to as long as the linear map
@@ -251,22 +236,20 @@ def cycle_of_static_start(p: Parameters) -> NearCycle | FloquetResult:
     cycle = cycle_from_rest(map_)
     if cycle.status is not CycleStatus.OK:
         return cycle
-    return _relate(map_, cycle, map_.first_release, WAITS)
+    return _relate(map_, cycle, map_.first_release)
 
 
 def find_cycle_near(
-    map_: ReturnMap, release: Passage, change: float, releases: int, unstable: Sequence[float] = ()
+    map_: ReturnMap, release: Passage, change: float, releases: int
 ) -> NearCycle | None:
     """The cycle near a motion that changes by so little over some releases, and whether the motion
-    follows it. If the cycle is unstable, tests for that begin at the times `unstable`, s after the
-    release."""
+    follows it."""
     if not change <= NEAR / 2:
         return None
     orbit = newton(map_, release.x, releases=releases)
     if orbit is None or map_.apart(orbit.start, release.x) > NEAR:
         return None
-    cycle = cycle_of(map_, run_through_once(map_, orbit))
-    return _relate(map_, cycle, release, WAITS if cycle.stable else unstable)
+    return _relate(map_, cycle_of(map_, run_through_once(map_, orbit)), release)
 
 
 def close_return(map_: ReturnMap, x: Array, most: int = LARGEST_PERIOD) -> tuple[float, int]:
@@ -281,24 +264,14 @@ def close_return(map_: ReturnMap, x: Array, most: int = LARGEST_PERIOD) -> tuple
     return math.nan, 0
 
 
-def _relate(
-    map_: ReturnMap, cycle: FloquetResult, release: Passage, waits: Sequence[float]
-) -> NearCycle:
-    """The motion at one of its releases in relation to a cycle; tests whether it follows the cycle
-    begin at the times `waits`, s after the release."""
+def _relate(map_: ReturnMap, cycle: FloquetResult, release: Passage) -> NearCycle:
+    """The motion at one of its releases in relation to a cycle."""
     assert cycle.state is not None
     x = map_.point(cycle.state)
     orbit = map_.evaluate(x, releases=cycle.releases)
     near = NearCycle(cycle, False, map_, x, release.x - x, orbit.jacobian, release.time)
-    moving = near
-    for wait in waits if release.reached else ():
-        later = moving.after(max(0.0, wait - (moving.time - release.time)))
-        if later is None:
-            break
-        moving = later
-        if near.follows_multipliers(x + moving.distance):
-            return replace(moving, follows_cycle=True)
-    return near
+    follows = release.reached and near.follows_multipliers(release.x)
+    return replace(near, follows_cycle=follows)
 
 
 _sliding = lru_cache(maxsize=1)(steady_sliding)  # needed at the end of each leg of a motion
@@ -580,8 +553,7 @@ class _Search:
         return run
 
     def _cycle_at(self, result: OutcomeResult, state: State, examined: bool) -> NearCycle | None:
-        """The cycle that the motion follows from its next release on; None if there is none, or
-        while it departs from another one."""
+        """The cycle that the motion follows from its next release on; None if there is none."""
         if self.map is None:
             return None
         release = self.map.next_release(state)
@@ -589,16 +561,10 @@ class _Search:
             return None
         change, releases = close_return(self.map, release.x)
         result.changes.append(change)
-        known = [each for each in result.changes if not math.isnan(each)]
-        # a motion that comes to a cycle changes less and less, down to errors of the simulation
-        least = max(ARRIVED, ERROR_OF_TOL * self.tol, *known[-2:][:1])
-        departs = result.near is not None and bool(known) and known[-1] > least
-        if departs or not examined:
-            return None
-        waits = WAITS if result.near is None else WAITS[:1]
-        near = find_cycle_near(self.map, release, change, releases, unstable=waits)
-        if near is not None and near.follows_cycle:
-            return near
+        if examined:
+            near = find_cycle_near(self.map, release, change, releases)
+            if near is not None and near.follows_cycle:
+                return near
         return None
 
 

@@ -653,54 +653,53 @@ HALVINGS = 6
 
 
 class FollowedModes(NamedTuple):
-    """Steady sliding of a case and its modes; their numbers, and likeness (modal assurance
-    criterion, the squared cosine of shapes) to the modes of the case before that have them, nan for
-    new ones, both (n,)."""
+    """Steady sliding of a case and its modes, and their numbers, (n,)."""
 
     sliding: SteadySliding
     modes: SlidingModes
     numbers: Indices
-    mac: Array
 
 
 def follow_modes(cases: Sequence[Parameters]) -> list[FollowedModes]:
     """Steady sliding and its modes along cases that differ in numbers.
 
     Modes keep the numbers that they have by frequency, from 0 on, in the first case; modes that
-    appear later have the next ones. Further cases between two are computed until it is clear which
-    mode is which. Numbers begin anew where a disc has another number of modes.
+    appear later have the next ones. Shapes are compared by the modal assurance criterion (MAC), the
+    squared cosine. Further cases between two are computed until it is clear which mode is which.
+    Numbers begin anew where a disc has another number of modes.
     """
     followed = list[FollowedModes]()
-    shapes = list[ComplexArray]()  # of each number, the last one
+    shapes = dict[int, ComplexArray]()  # of each number, the last one
     before: Parameters | None = None
     for p in cases:
         sliding, modes = _sliding_and_modes(p)
-        numbers, mac = _numbered(shapes, before, p, modes, HALVINGS)
-        followed.append(FollowedModes(sliding, modes, numbers, mac))
+        numbers = _numbered(shapes, before, p, modes, HALVINGS)
+        followed.append(FollowedModes(sliding, modes, numbers))
         before = p
     return followed
 
 
 def _numbered(
-    shapes: list[ComplexArray],
+    shapes: dict[int, ComplexArray],
     before: Parameters | None,
     p: Parameters,
     modes: SlidingModes,
     halvings: int,
-) -> tuple[Indices, Array]:
-    """Numbers and likeness of the modes of a case; `shapes`, by number, become those of this
-    case. Where the modes are in doubt, the case `before` is followed to this one by halves of the
-    way, up to so many `halvings`."""
+) -> Indices:
+    """Numbers of the modes of a case; `shapes`, by number, become those of this case. Where the modes
+    are in doubt, the case `before` is followed to this one by halves of the way, up to so many
+    `halvings`."""
     # slow to import, and steady sliding alone does without
     from scipy.optimize import linear_sum_assignment
 
     if not len(modes.frequency):
-        return np.zeros(0, np.int64), np.zeros(0)
+        return np.zeros(0, np.int64)
     scaled = np.sqrt(energy_weights(p))[:, None] * modes.shapes
     scaled = scaled / np.linalg.norm(scaled, axis=0)
     if shapes and len(shapes[0]) != len(scaled):
         shapes.clear()
-    mac = np.abs(np.array(shapes).reshape(len(shapes), len(scaled)).conj() @ scaled) ** 2
+    known = np.array([*shapes.values()]).reshape(len(shapes), len(scaled))
+    mac = np.abs(known.conj() @ scaled) ** 2
     numbers, places = linear_sum_assignment(-mac)
     if before is not None and halvings and mac[numbers, places].min(initial=1) < ALIKE:
         between = _case_between(before, p)
@@ -712,12 +711,9 @@ def _numbered(
 
     matched = np.full(len(modes.frequency), -1)
     matched[places] = numbers
-    likeness = np.full(len(modes.frequency), math.nan)
-    likeness[places] = mac[numbers, places]
     matched[matched < 0] = len(shapes) + np.arange(np.sum(matched < 0))
-    for number, shape in sorted(zip(matched, scaled.T, strict=True), key=lambda pair: pair[0]):
-        shapes[number : number + 1] = [shape]
-    return matched, likeness
+    shapes.update(zip(matched.tolist(), scaled.T, strict=True))
+    return matched
 
 
 def _case_between(before: Parameters, after: Parameters) -> Parameters | None:
