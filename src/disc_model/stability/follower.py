@@ -158,8 +158,9 @@ class NearCycle:
             if periods <= 0:
                 continue
             distance = np.linalg.matrix_power(self.jacobian, periods) @ self.distance
-            if np.linalg.norm(distance) > min(2 * size, farthest):
-                continue  # parts of other multipliers have not decayed yet
+            # beyond twice the size of one of a conjugate pair are parts of other multipliers
+            if np.linalg.norm(distance) > min(2.5 * size, farthest):
+                continue
             orbit = self._advance(self.x + distance, max(1, round(tested / period)))
             if not orbit.returned:
                 break
