@@ -46,7 +46,7 @@ def command(capsys: pytest.CaptureFixture[str]) -> Command:
         ("floquet N=-1 Omega=x", 2, "error: N=-1: must be >= 0; Omega='x': must be a number"),
         ("floquet N=1 Omega=1 b", 2, "error: b: must be NAME=VALUE, such as N=385\n"),
         ("floquet N=1 --tool 1", 2, "error: --tool: must be NAME=VALUE"),
-        ("floquet N=0 Omega=0", 1, "The disc is not driven"),
+        ("floquet N=0 Omega=0", 1, "Nothing ever slips"),
         ("sliding N=0 Omega=0", 1, "The disc is not driven"),
         ("modes b=0.05", 2, "error: r_0=0.1: must be <= b=0.05\n"),
         ("modes disc=none.csv", 2, "none.csv"),

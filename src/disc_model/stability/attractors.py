@@ -109,7 +109,7 @@ def proof(p: Parameters, leg: Result, most: int = sys.maxsize) -> Arrival | None
     if calm is not None:
         return Arrival(Settled.SETTLED, calm=calm)
     near = _cycle_reached(p, leg, most)
-    if near is not None and near.cycle.stable and near.follows_cycle:
+    if near is not None and near.follows_cycle:  # of stable cycles only
         return Arrival(Settled.SETTLED, near=near)
     if near is not None and near.lingers:
         return Arrival(Settled.CHANGING)

@@ -52,6 +52,8 @@ ARRIVED = 1e-8  # a motion as near to a stable cycle is on it: 10,000 times the 
 # resolves slower rates
 TEST_TIMES = ((0.3, 1.2), (1.5, 6.0))
 TEST_TOL = 1e-13  # of simulations in these tests, whose errors must be below `ARRIVED`
+# s, at which tests begin: near a resonance the strongly damped modes must decay first
+WAITS = (0.0, 1.5, 6.0, 15.0)
 LARGEST_ERROR = 0.1  # of the linear motion, relative to it: second order in the distance
 LARGEST_RATE_ERROR = 0.5  # of the growth rate, relative to it: it decides the sign of the rate
 LARGEST_PERIOD = 8  # releases in a period of cycles that are sought, to limit the time
@@ -77,7 +79,7 @@ class NearCycle:
     cycle, x, jacobian : the cycle, its point (n,) on the section, the return map's Jacobian there
     follows_cycle : whether the motion follows the linear map near the cycle
     distance : (n,), of the motion from `x` on the section, at `time`
-    time : s, of the motion
+    time : s, of the motion; if it follows the linear map only after some waiting, the end of that
     """
 
     cycle: FloquetResult
@@ -115,7 +117,7 @@ class NearCycle:
         """Whether the motion stays near an unstable cycle: over a period it hardly moves, as it
         would on a torus."""
         still = LINGERS * self.map.deflection
-        return not self.cycle.stable and self._advance(self.x + self.distance, 1).residual <= still
+        return not self.cycle.stable and self.advance(self.x + self.distance, 1).residual <= still
 
     @np.errstate(over="ignore", invalid="ignore")  # powers of a strongly unstable cycle's Jacobian
     def follows_multipliers(self, x: Array) -> bool:
@@ -161,7 +163,7 @@ class NearCycle:
             # beyond twice the size of one of a conjugate pair are parts of other multipliers
             if np.linalg.norm(distance) > min(2.5 * size, farthest):
                 continue
-            orbit = self._advance(self.x + distance, max(1, round(tested / period)))
+            orbit = self.advance(self.x + distance, max(1, round(tested / period)))
             if not orbit.returned:
                 break
             later = orbit.end - self.x
@@ -173,7 +175,7 @@ class NearCycle:
             reached = self.x + distance, self.time + periods * period - gained
         return reached
 
-    def _advance(self, x: Array, periods: int, *, coarse: bool = True) -> Orbit:
+    def advance(self, x: Array, periods: int, *, coarse: bool = True) -> Orbit:
         """The motion from a point of the section over some periods of the cycle."""
         return self.map.evaluate(
             x, releases=periods * self.cycle.releases, tangent=False, coarse=coarse
@@ -191,7 +193,7 @@ class NearCycle:
         done = 0
         for i, time in enumerate(times, 1):
             count = max(i, round(time / self.cycle.period)) - done
-            orbit = self._advance(x, count, coarse=coarse)
+            orbit = self.advance(x, count, coarse=coarse)
             if not orbit.returned:
                 return
             x = orbit.end
@@ -237,20 +239,22 @@ def cycle_of_static_start(p: Parameters) -> NearCycle | FloquetResult:
     cycle = cycle_from_rest(map_)
     if cycle.status is not CycleStatus.OK:
         return cycle
-    return _relate(map_, cycle, map_.first_release)
+    return _relate(map_, cycle, map_.first_release, WAITS)
 
 
 def find_cycle_near(
-    map_: ReturnMap, release: Passage, change: float, releases: int
+    map_: ReturnMap, release: Passage, change: float, releases: int, unstable: Sequence[float] = ()
 ) -> NearCycle | None:
     """The cycle near a motion that changes by so little over some releases, and whether the motion
-    follows it."""
+    follows it. If the cycle is unstable, tests for that begin at the times `unstable`, s after the
+    release."""
     if not change <= NEAR / 2:
         return None
     orbit = newton(map_, release.x, releases=releases)
     if orbit is None or map_.apart(orbit.start, release.x) > NEAR:
         return None
-    return _relate(map_, cycle_of(map_, run_through_once(map_, orbit)), release)
+    cycle = cycle_of(map_, run_through_once(map_, orbit))
+    return _relate(map_, cycle, release, WAITS if cycle.stable else unstable)
 
 
 def close_return(map_: ReturnMap, x: Array, most: int = LARGEST_PERIOD) -> tuple[float, int]:
@@ -265,14 +269,27 @@ def close_return(map_: ReturnMap, x: Array, most: int = LARGEST_PERIOD) -> tuple
     return math.nan, 0
 
 
-def _relate(map_: ReturnMap, cycle: FloquetResult, release: Passage) -> NearCycle:
-    """The motion at one of its releases in relation to a cycle."""
+def _relate(
+    map_: ReturnMap, cycle: FloquetResult, release: Passage, waits: Sequence[float]
+) -> NearCycle:
+    """The motion at one of its releases in relation to a cycle; tests whether it follows the cycle
+    begin at the times `waits`, s after the release."""
     assert cycle.state is not None
     x = map_.point(cycle.state)
     orbit = map_.evaluate(x, releases=cycle.releases)
     near = NearCycle(cycle, False, map_, x, release.x - x, orbit.jacobian, release.time)
-    follows = release.reached and near.follows_multipliers(release.x)
-    return replace(near, follows_cycle=follows)
+    moving = near
+    for wait in waits if release.reached else ():
+        periods = round((wait - (moving.time - release.time)) / cycle.period)
+        if periods > 0:
+            later = moving.advance(x + moving.distance, periods, coarse=False)
+            if not later.returned:
+                break
+            time = moving.time + later.period
+            moving = replace(moving, distance=later.end - x, time=time)
+        if near.follows_multipliers(x + moving.distance):
+            return replace(moving, follows_cycle=True)
+    return near
 
 
 _sliding = lru_cache(maxsize=1)(steady_sliding)  # needed at the end of each leg of a motion
@@ -563,7 +580,8 @@ class _Search:
         change, releases = close_return(self.map, release.x)
         result.changes.append(change)
         if examined:
-            near = find_cycle_near(self.map, release, change, releases)
+            waits = WAITS if result.near is None else WAITS[:1]
+            near = find_cycle_near(self.map, release, change, releases, unstable=waits)
             if near is not None and near.follows_cycle:
                 return near
         return None

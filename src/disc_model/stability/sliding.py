@@ -180,13 +180,6 @@ class SteadySliding(EqualByValue):
         grows = growth_rates(self.eigenvalues) > 0
         return self.eigenvalues[grows & (self.eigenvalues.imag >= 0)]
 
-    @property
-    def neutral(self) -> ComplexArray:
-        """Eigenvalues of modes that neither grow nor decay by more than rounding, 1/s, (n,); of a
-        conjugate pair the upper one."""
-        rests = growth_rates(self.eigenvalues) == 0
-        return self.eigenvalues[rests & (self.eigenvalues.imag >= 0)]
-
     def plot(self, ax: Any = None, **look: Any) -> Any:
         """Draw the frequencies of the modes over their growth rates, with rings around those that
         grow, on axes or in a new figure; returns the axes.
