@@ -59,6 +59,7 @@ LARGEST_RATE_ERROR = 0.5  # of the growth rate, relative to it: it decides the s
 LARGEST_PERIOD = 8  # releases in a period of cycles that are sought, to limit the time
 LINGERS = 1e-3  # largest change over a period of a motion that stays near an unstable cycle
 RISE = 1.5  # factor between changes of periods that shows growth
+LARGEST_OUTSIDE = 0.25  # share of a departure outside the leading eigenspace
 SLOW_DEPARTURE = 0.2  # growth rate, 1/s, up to which a departure is extrapolated
 # shares of `NEAR` up to which it is, as long as its growth rate differs from the multiplier's by no
 # more than this, relative
@@ -160,13 +161,16 @@ class NearCycle:
             if periods <= 0:
                 continue
             distance = np.linalg.matrix_power(self.jacobian, periods) @ self.distance
-            # beyond twice the size of one of a conjugate pair are parts of other multipliers
-            if np.linalg.norm(distance) > min(2.5 * size, farthest):
-                continue
+            if self._share_outside(distance) > LARGEST_OUTSIDE:
+                continue  # parts of other multipliers have not decayed yet
+            if np.linalg.norm(distance) > farthest:
+                break
             orbit = self.advance(self.x + distance, max(1, round(tested / period)))
             if not orbit.returned:
                 break
             later = orbit.end - self.x
+            if self._share_outside(later) > LARGEST_OUTSIDE:
+                break
             grown = math.log(abs(self.leading @ later) / abs(self.leading @ distance))
             excess = grown / orbit.period / rate - 1
             if abs(excess) > LARGEST_EXCESS:
@@ -180,6 +184,16 @@ class NearCycle:
         return self.map.evaluate(
             x, releases=periods * self.cycle.releases, tangent=False, coarse=coarse
         )
+
+    def _share_outside(self, distance: Array) -> float:
+        """Share of a distance from the cycle that lies outside the leading multiplier's
+        eigenspace."""
+        right = _leading(self.jacobian, np.abs)
+        within = (self.leading @ distance) / (self.leading @ right) * right
+        if self.cycle.multipliers[0].imag:
+            within = 2 * within  # with that of the conjugate
+        outside = np.linalg.norm(distance - within.real)
+        return float(outside / np.linalg.norm(distance))
 
     def _motion(
         self, distance: Array, times: Sequence[float]
