@@ -97,6 +97,12 @@ class NearCycle:
         multiplier's part of it."""
         return _leading(self.jacobian.T, np.abs)
 
+    @cached_property
+    def right(self) -> ComplexArray:
+        """Right eigenvector of the leading multiplier, (n,), whose product with `leading` is one."""
+        right = _leading(self.jacobian, np.abs)
+        return np.asarray(right / (self.leading @ right), dtype=complex)
+
     @property
     def kind(self) -> Outcome:
         """Outcome of a motion on the cycle: stick-slip if the cycle is that of the static start, or
@@ -150,9 +156,8 @@ class NearCycle:
         tested = TEST_TIMES[-1][-1]  # the test after it ends within `NEAR`
         factor = math.exp(rate * tested)
         last = max(0, math.ceil((latest - self.time) / period))
-        # length of the leading multiplier's part of the distance
-        unit = abs(self.leading @ _leading(self.jacobian, np.abs))
-        part = max(float(abs(self.leading @ self.distance) / unit), sys.float_info.min)
+        part = float(abs(self.leading @ self.distance)) * float(np.linalg.norm(self.right))
+        part = max(part, sys.float_info.min)  # for its logarithm
         farthest = NEAR * self.map.deflection
         reached = None
         for share in DEPARTURES:
@@ -188,8 +193,7 @@ class NearCycle:
     def _share_outside(self, distance: Array) -> float:
         """Share of a distance from the cycle that lies outside the leading multiplier's
         eigenspace."""
-        right = _leading(self.jacobian, np.abs)
-        within = (self.leading @ distance) / (self.leading @ right) * right
+        within = (self.leading @ distance) * self.right
         if self.cycle.multipliers[0].imag:
             within = 2 * within  # with that of the conjugate
         outside = np.linalg.norm(distance - within.real)
