@@ -18,7 +18,7 @@ from disc_model.analysis import classify
 from disc_model.parameters import Parameters
 from disc_model.simulation.states import static_start
 from disc_model.stability.continuation import continue_cycle
-from disc_model.stability.floquet import floquet
+from disc_model.stability.cycle import floquet
 
 Solve = Callable[[Problem, float], MethodResult]
 """A method at a setting: integrates a problem within a budget in s."""

@@ -54,7 +54,7 @@ _NAMES = {
     "studies.sweep": "sweep",
     "stability.continuation": "Branch StepControl continue_cycle neutral_curves",
     "stability.critical": "critical",
-    "stability.floquet": "floquet",
+    "stability.cycle": "floquet",
     "stability.lyapunov": "lyapunov_exponents",
     "stability.sliding": "steady_sliding",
     "stability.squeal": "squeal",
@@ -97,7 +97,7 @@ if TYPE_CHECKING:
         neutral_curves,
     )
     from disc_model.stability.critical import critical
-    from disc_model.stability.floquet import floquet
+    from disc_model.stability.cycle import floquet
     from disc_model.stability.lyapunov import lyapunov_exponents
     from disc_model.stability.sliding import steady_sliding
     from disc_model.stability.squeal import squeal

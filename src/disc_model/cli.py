@@ -69,8 +69,11 @@ def run(options: argparse.Namespace) -> bool:
 def floquet(options: argparse.Namespace) -> bool:
     """Find the stick-slip cycle and its multipliers."""
     cycle = dm.floquet(case_of(options.case))
-    show(cycle.summary())
-    return cycle.status == "ok"
+    print(cycle)
+    if cycle.status != "ok":
+        print(cycle.status.advice)
+        return False
+    return True
 
 
 def sliding(options: argparse.Namespace) -> bool:
@@ -78,7 +81,7 @@ def sliding(options: argparse.Namespace) -> bool:
     import pandas as pd
 
     state = dm.steady_sliding(case_of(options.case))
-    show(state.summary())
+    print(repr(state))
     upper = state.eigenvalues[state.eigenvalues.imag >= 0]
     if not upper.size:
         return False

@@ -18,8 +18,7 @@ from disc_model.disc.plate import modal_damping
 from disc_model.display import brought
 from disc_model.errors import DiscModelError, Fault, ParameterError, raise_faults, suggestion
 from disc_model.parameters import Parameters, require_case
-from disc_model.stability.cycle import FloquetResult
-from disc_model.stability.floquet import floquet
+from disc_model.stability.cycle import FloquetResult, floquet
 from disc_model.stability.sliding import steady_sliding
 from disc_model.units import Finite, Positive, Real, Strict
 

@@ -16,7 +16,7 @@ from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import coupled_frequencies, mode_arrays
 from disc_model.errors import DiscModelError, require
 from disc_model.parameters import Parameters
-from disc_model.stability.floquet import floquet
+from disc_model.stability.cycle import floquet
 from disc_model.stability.sliding import steady_sliding
 from disc_model.units import Finite, checked
 

@@ -25,10 +25,7 @@ BLOCK = re.compile(r"^```python\n(.*?)^```$", re.M | re.S)
 WITH_EXAMPLES = [page for page in PAGES if ">>>" in page.read_text(encoding="utf-8")]
 OPTIONS = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE
 
-RETURNED = [
-    "stability.cycle.FloquetResult",
-    "stability.sliding.SteadySliding",
-]
+RETURNED = ["stability.cycle.FloquetResult", "stability.sliding.SteadySliding"]
 """Classes of what functions return."""
 
 

@@ -2,7 +2,6 @@
 refused."""
 
 import functools
-import math
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -508,8 +507,8 @@ def test_results_without_numbers_are_drawn() -> None:
     unknown = replace(exponents(), exponents=np.array([-np.inf, np.nan]), errors=nothing)
     assert "−∞, below any number" in entries(unknown.plot())
     size = critical().values.size
-    none = {"growth_rate": np.full(size, np.nan), "crossings": nothing[:0], "value": math.nan}
-    found = replace(critical(), unstable_above=np.zeros(0, bool), **none)
+    none = {"growth_rate": np.full(size, np.nan), "stable": np.zeros(size, bool)}
+    found = replace(critical(), **none)
     found.plot().figure.draw_without_rendering()
 
 

@@ -11,7 +11,7 @@ import pytest
 import yaml
 from scipy.stats import qmc
 
-from disc_model.analysis.classify import Motion, Settled, Settling
+from disc_model.analysis.classify import Motion, Settled
 from disc_model.data.variables import Outcome
 from disc_model.disc.plate import mode_arrays
 from disc_model.engine.record import EVENT_ROW, LOSS_OF_CONTACT, STICK_TO_SLIP
@@ -163,10 +163,8 @@ def test_a_periodic_attractor_is_known_by_its_fixed_point() -> None:
     # one separation more or less in a leg of five seconds
     in_a_period = separating.period * separating.segment.separation_rate
     assert in_a_period == pytest.approx(1, abs=1 / (5 * 135))
-    assert separating.growth_rate < 0
     assert quiet.kind == Outcome.STICK_SLIP
     assert quiet.segment.separation_rate == 0
-    assert quiet.growth_rate == pytest.approx(-0.0674, rel=1e-2)
     assert quiet.points is not None
 
 
@@ -260,7 +258,7 @@ def test_a_stay_is_doubled_until_it_has_settled_and_no_further(
 
     def settles(p: Parameters, legs: Any) -> Arrival:
         done = 0.1 * 2 ** (len(legs) - 1) >= {10.0: 0.1, 11.0: 0.2, 12.0: 9.0}[p.Omega]
-        return Arrival(Settling(Settled.SETTLED if done else Settled.UNDECIDED))
+        return Arrival(Settled.SETTLED if done else Settled.UNDECIDED)
 
     monkeypatch.setattr(attractors, "arrival", settles)
     swept = [*attractors.sweep(P14, "Omega", [*stays], 0.1, 0.5, 0.05, 1e-8, lowest=1)]
@@ -295,12 +293,7 @@ UNEVEN[:3000] += np.geomspace(1e-3, 1e-9, 3000)  # a transient, up to the last 4
 def test_a_motion_that_never_sticks_has_settled_if_its_losses_of_contact_repeat(
     legs: list[Any], repeats: bool
 ) -> None:
-    found = attractors.settling_of(legs)
-    assert (found.answer is Settled.SETTLED) == repeats
-    if repeats:
-        assert found.since == 60.0
-        # 1e-8 s of a thousandth of 0.01 s, in 40 s
-        assert found.least == pytest.approx(1e-8 / 1e-5 / 40, rel=1e-6)
+    assert (attractors.settling_of(legs) is Settled.SETTLED) == repeats
 
 
 @pytest.mark.compiled
@@ -315,9 +308,7 @@ def test_a_motion_that_slips_and_loses_contact_repeats_after_a_transient() -> No
         state = run.final_state
         reached = attractors.arrival(p, [run])
         assert reached.near is None
-        assert reached.settled is settled
-        if settled:
-            assert reached.settling.since == pytest.approx(end - 40)
+        assert (reached.answer is Settled.SETTLED) == settled
 
 
 # ------------------------------------------------------------------------ Cycles and perturbations

@@ -22,14 +22,14 @@ P = dm.Parameters(N=100, Omega=10)
 def test_bounds_may_be_texts_with_units(
     name: str, bounds: tuple[Any, Any], expected: tuple[float, float]
 ) -> None:
-    found = dm.critical(P, name, bounds, points=3, kind="sliding")
+    found = dm.critical(P, name, bounds, points=3)
     low, *_, high = found.values
     assert (low, high) == pytest.approx(expected, rel=1e-12)
 
 
 MASSES = ("3 kg", "5 kg")
 FUNCTIONS: list[Callable[[], Any]] = [
-    lambda: dm.critical(P, "N", MASSES, kind="sliding"),
+    lambda: dm.critical(P, "N", MASSES),
     lambda: dm.continue_cycle(P, "N", MASSES),
     lambda: dm.neutral_curves(P, {"N": MASSES, "mu_s": (0.3, 0.4)}, [0.35]),
 ]

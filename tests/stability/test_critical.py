@@ -7,13 +7,10 @@ from typing import Any
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
-from scipy.optimize import brentq
 
 import disc_model as dm
 from disc_model.data.variables import STABLE_CYCLES
-from tests.blocks import RIG
 from tests.refusals import refusal
-from tests.stability.test_sliding_motion import SQUEALS
 
 ORTHONORMAL = {"normalization": "orthonormal"}
 WINDOWS = {  # a case, what is searched, and within bounds the places of changes of stability
@@ -62,42 +59,6 @@ def test_windows_narrower_than_a_step_are_seen(name: str) -> None:
     assert found.resolution == np.diff(found.values).max()
 
 
-BLOCK = RIG.replace(m=0.5, k_p=7e3, c_p=6)
-
-
-def test_sliding_of_a_block_is_stable_above_the_slope_of_friction() -> None:
-    """mu falls by (mu_s - mu_k) decay / (1 + decay v)^2 per m/s, here 4/9 at 0.2 m/s, so that 10 N
-    need a damper of 40/9 N s/m."""
-    found = dm.critical(BLOCK, "c_p", (0.1, 6.0), points=11, kind="sliding")
-    assert found.crossings.tolist() == pytest.approx([40 / 9], abs=6e-6)
-    assert found.unstable_above.tolist() == [False]
-    assert found.unstable.tolist() == [[0.1, found.crossings[0]]]
-    assert found.message == "already unstable at the lower bound, c_p = 0.1 N s/m"
-    assert math.isnan(found.border)
-
-
-def test_the_critical_speed_of_sliding_is_where_its_growth_rate_is_zero() -> None:
-    case = SQUEALS.replace(Omega=60)
-
-    def rate(speed: float) -> float:
-        return dm.steady_sliding(case.replace(Omega=speed)).growth_rate
-
-    found = dm.critical(case, "Omega", (20, 80), points=7, kind="sliding")
-    assert found.value == found.border == pytest.approx(brentq(rate, 20, 80), abs=6e-5)
-    assert rate(found.value) > 0 > rate(found.value - 1e-4)
-    assert not found.at_lower_bound
-    assert found.message == ""
-
-
-def test_neutral_sliding_is_neither_stable_nor_searched() -> None:
-    """Without a damper in the plane the slider's own mode neither grows nor decays."""
-    block = dm.Parameters(n_diameters=-1, N=100, Omega=10, c_p=0, mu_s=0.4, mu_k=0.4)
-    found = dm.critical(block, "Omega", (5, 20), points=9, kind="sliding")
-    assert found.message.startswith("steady sliding has no growing mode at all 9 values")
-    assert found.growth_rate.tolist() == [0.0] * 9
-    assert math.isnan(found.value)
-
-
 @pytest.mark.compiled
 def test_steady_sliding_in_the_place_of_a_cycle_is_told() -> None:
     """A damper in the plane ends the cycle: steady sliding takes its place, and grows."""
@@ -137,7 +98,6 @@ def test_critical_values_are_data(tmp_path: Path) -> None:
     [
         ({"bounds": ("5 kg", 15)}, r"^bounds\.0='5 kg': must be a number in rad/s"),
         ({"name": "mu_s", "bounds": (0.1, 0.9)}, r"^mu_k=0\.24: must be <= mu_s=0\.1$"),
-        ({"kind": "slipping"}, "kind='slipping': must be 'stick_slip' or 'sliding'"),
         ({"points": 1}, "points=1"),
     ],
 )

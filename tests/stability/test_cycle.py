@@ -216,7 +216,7 @@ def test_numbers_of_a_cycle_are_of_its_period_and_over_the_deflection():
     map_ = SimpleNamespace(parameters=P, tol=1e-12, deflection=0.5, state=lambda x: None)
     cycle = cycle_of(map_, orbit)
     assert tuple(getattr(cycle, name) for name in Counts._fields) == counts
-    assert "3 releases, 2 backward releases, 4 slip reversals, 5 separations" in cycle.message
+    assert cycle.message.endswith("with 3 releases")
     assert cycle.stick_fraction == pytest.approx(0.25)
     assert cycle.stick_time == pytest.approx(0.005 / 3)
     assert math.isnan(cycle.slip_time), "the slider is off the disc for a part of the rest"

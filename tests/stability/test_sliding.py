@@ -233,7 +233,6 @@ def test_the_growth_rate_of_neutral_sliding_is_exactly_0(p):
     assert found.growth_rate == 0
     assert not found.stable
     assert not found.growing.size
-    assert found.neutral.size == 1
     assert steady_sliding(p.replace(c_p=1.0)).growth_rate != 0
     modes = sliding_modes(p)
     assert np.count_nonzero(modes.growth_rate == 0) == 1
@@ -262,7 +261,7 @@ def test_a_mode_has_the_circles_of_most_energy_and_the_shares_of_a_mass_on_sprin
     found = sliding_modes(Parameters(N=1, Omega=1e-3, disc=disc, **springs))
     i = np.argmin(np.abs(2 * np.pi * found.frequency - np.sqrt(4e6 / 3)))
     assert (found.diameters[i], found.circles[i]) == (diameters[0], circles[0])
-    assert found.across[i] == pytest.approx(5 / 12, abs=1e-3)
+    assert found.disc[i] == pytest.approx(7 / 12, abs=1e-3)
 
 
 def test_modes_are_the_eigenvalues_of_steady_sliding():
@@ -342,7 +341,7 @@ def roots_of_energies(p, shapes):
 
 
 @pytest.mark.filterwarnings("ignore::disc_model.ImplausibleValue")
-def test_modes_are_named_and_compared_by_their_energies():
+def test_modes_are_named_by_their_energies():
     """Where the slider's frequency passes those of the disc most of the energy passes from one to
     the other."""
     base = Parameters(
@@ -355,26 +354,16 @@ def test_modes_are_named_and_compared_by_their_energies():
     # here not |f| but its square tells whose motion it is
     lasts.append(base.replace(N=3e4, m=100.0, k_p=3.468e8))
     for last in lasts:
-        first = last.replace(k_p=0.999 * last.k_p)
-        known, found = follow_modes([first, last])
-        roots_before = roots_of_energies(first, known.modes.shapes)
-        roots = roots_of_energies(last, found.modes.shapes)
+        modes = sliding_modes(last)
+        roots = roots_of_energies(last, modes.shapes)
 
         # the name is that of most energy
         disc, slider = (np.abs(rows) ** 2 for rows in roots[:2])
         by_l = np.array([disc[np.tile(l, 4) == number].sum(axis=0) for number in range(5)])
         in_plane = slider.sum(axis=0) > disc.sum(axis=0)
         expected = np.where(in_plane, -1, by_l.argmax(axis=0))
-        np.testing.assert_array_equal(found.modes.diameters, expected)
+        np.testing.assert_array_equal(modes.diameters, expected)
         kinds.add(tuple(expected))
-
-        # likeness is the squared cosine of shapes whose squares are energies: the slider's velocity
-        # across counts as well, but little
-        before, after = (np.vstack(rows) for rows in (roots_before, roots))
-        before = before[:, found.numbers]
-        overlap = np.abs(np.sum(before.conj() * after, axis=0)) ** 2
-        sizes = [np.sum(np.abs(rows) ** 2, axis=0) for rows in (before, after)]
-        np.testing.assert_allclose(found.mac, overlap / (sizes[0] * sizes[1]), rtol=0.01)
     assert len(kinds) > 2, "the energy does not pass on"
 
 

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 import disc_model as dm
-from disc_model.stability.return_map import ENDS, PARAMETERS, RETURNED
-from disc_model.stability.slipping import SlippingMap, find_slipping_orbit
+from disc_model.stability.cycle import smallest_in_slip
+from disc_model.stability.return_map import ENDS, PARAMETERS, RETURNED, SlippingMap
 from tests.contact_laws import COMPILES
 from tests.engine.test_saltation import differences
 
@@ -31,7 +31,7 @@ def cycle_on_section(
 ) -> tuple[SlippingMap, np.ndarray]:
     """The map of a case, and the point of its cycle."""
     map_ = SlippingMap(p, parameters=names)
-    orbit = find_slipping_orbit(map_, dm.steady_sliding(p))
+    orbit = smallest_in_slip(map_)
     assert orbit is not None
     return map_, orbit.start
 

@@ -85,7 +85,7 @@ class ToyMap:
     def counts(self, x):
         return COUNTS
 
-    def evaluate(self, x, *, releases=1, tangent=True, may_separate=False, coarse=False):
+    def evaluate(self, x, *, releases=1, tangent=True, coarse=False):
         start = np.asarray(x, float)
         end = start
         jacobian = np.eye(self.size)

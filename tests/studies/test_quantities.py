@@ -14,7 +14,7 @@ import xarray as xr
 from scipy import stats
 
 import disc_model as dm
-from disc_model.analysis.classify import Settled, Settling
+from disc_model.analysis.classify import Settled
 from disc_model.analysis.contact_loss import excess_of_flights
 from disc_model.data.variables import OF_QUANTITIES, CycleStatus, Outcome
 from disc_model.errors import Status
@@ -319,7 +319,7 @@ def test_a_sweep_has_an_onset_and_an_end_between_its_bounds(
     rates: list[list[Any]], onset: float, offset: float, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def sweep(*_: Any) -> Iterator[Any]:
-        settled = attractors.Arrival(Settling(Settled.SETTLED))
+        settled = attractors.Arrival(Settled.SETTLED)
         for place in [(0, 0), (0, 1), (0, 2), (1, 2), (1, 1), (1, 0)]:
             rate = rates[place[0]][place[1]]
             late = None if rate is None else stretch(separation_rate=rate)
@@ -336,7 +336,7 @@ def test_a_sweep_has_an_onset_and_an_end_between_its_bounds(
 # ---- Basins
 
 CALM = stretch(u_min=0, u_max=1e-5, separation_rate=0, stick_fraction=0.3, separation_fraction=0)
-NEAR = Attractor(Outcome.STICK_SLIP, CALM, 0.015, 1, -0.1, np.zeros((1, 2)))
+NEAR = Attractor(Outcome.STICK_SLIP, CALM, 0.015, 1, np.zeros((1, 2)))
 APART = Attractor(Outcome.SEPARATING, stretch(u_min=0, u_max=0.03))
 UNDECIDED = OutcomeResult(Outcome.UNDECIDED, 60.0)
 FAILED = OutcomeResult(None, 1.0, failed=LOST)

@@ -3,7 +3,7 @@
 from functools import cache
 
 from disc_model.parameters import Parameters
-from disc_model.stability.floquet import floquet
+from disc_model.stability.cycle import floquet
 from disc_model.stability.sliding import steady_sliding
 
 

@@ -110,7 +110,7 @@ def draw_multipliers(ax: Axes, cycle: Any, **look: Any) -> None:
     values = cycle.multipliers
     own = {"marker": "o", "linestyle": "", "label": case_text(cycle.parameters)}
     ax.plot(values.real, values.imag, **wished(look, **own))
-    _ring(ax, values[np.abs(values) > 1], "grows")
+    _ring(ax, values[np.abs(values) > 1])
     ax.set(xlabel="Re κ", ylabel="Im κ", aspect="equal")
 
 
@@ -118,22 +118,21 @@ def draw_eigenvalues(ax: Axes, sliding: Any, **look: Any) -> None:
     """Draw frequencies over growth rates of the modes of steady sliding, with rings around those that
     grow, and their frequencies."""
     upper = sliding.eigenvalues[sliding.eigenvalues.imag >= 0]
-    grows, rests = (np.isin(upper, each) for each in (sliding.growing, sliding.neutral))
+    grows = np.isin(upper, sliding.growing)
     places = upper.real + 1j * upper.imag / (2 * np.pi)
     ax.axvline(0, color=BLACK, lw=0.6)
     own = {"marker": "o", "linestyle": "", "label": case_text(sliding.parameters)}
     ax.plot(places.real, places.imag, **wished(look, **own))
-    _ring(ax, places[grows], "grows")
-    _ring(ax, places[rests], "neutral", GREY)
+    _ring(ax, places[grows])
     for x, y in zip(places[grows].real, places[grows].imag, strict=True):
         ax.annotate(f"{y:.0f} Hz", (x, y), (6, 3), textcoords="offset points")
     ax.set(xlabel="Growth rate (1/s)", ylabel="Frequency (Hz)")
 
 
-def _ring(ax: Axes, places: NDArray[np.complex128], name: str, colour: str = RED) -> None:
-    """Rings around points of the complex plane."""
-    look = {"marker": "o", "markersize": 9, "color": colour, "markerfacecolor": "none"}
-    mark_points(ax, places.real, places.imag, name, **look)
+def _ring(ax: Axes, places: NDArray[np.complex128]) -> None:
+    """Rings around what grows, in the complex plane."""
+    look = {"marker": "o", "markersize": 9, "color": RED, "markerfacecolor": "none"}
+    mark_points(ax, places.real, places.imag, "grows", **look)
 
 
 def draw_exponents(ax: Axes, found: Any, **look: Any) -> None:
@@ -161,7 +160,7 @@ def draw_critical(ax: Axes, found: Any, **look: Any) -> None:
     own = wished(look, label=case_text(found.parameters, found.name), marker=".")
     lines(ax, rate, found.name, missing="", **own)
     colour = ax.lines[-1].get_color()
-    if found.kind != "sliding" and sliding.notnull().any():
+    if sliding.notnull().any():
         name = once(ax, "steady sliding, where there is no cycle")
         ax.plot(x, sliding, "--", label=name, color=colour)
     mark_missing(ax, x[rate.isnull() & sliding.isnull()], "nothing found", colour)

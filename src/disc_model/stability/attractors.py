@@ -17,10 +17,8 @@ import numpy as np
 from disc_model.analysis.classify import (
     CLOSES,
     FEWEST,
-    STILL,
     Motion,
     Settled,
-    Settling,
     closure,
     settling,
     shortest_period,
@@ -69,6 +67,7 @@ VARIATION = 0.01
 # rates of `SLOWEST`, as a record of 200 s does that is known to 1 %
 REPETITION = 40.0
 SAME = 0.05  # segments that differ by less are of one attractor; the rest of a drift may reach half of it
+APPROACHED = 0.1  # relative difference in range from an attractor that a motion approaches
 SMALLEST = 1e-3  # range, over the static deflection, below which ranges count as equal
 # downward, over the static deflection, from which attractors are sought
 OWN_STARTS = (0.0, 0.25, 0.5, 1.0, 2.0)
@@ -79,27 +78,22 @@ EQUILIBRIA = {Outcome.AT_REST, Outcome.STEADY_SLIDING}
 class Arrival(NamedTuple):
     """Whether a motion has settled, with what proves it; without proof, a record decides.
 
-    settling : the answer, with rates
+    answer : whether it has settled
     calm : rest or steady sliding that is reached; None if neither is proven
     near : stable cycle that the motion follows by its multipliers; None if that is not proven
     stay : s, for which the motion was followed
     """
 
-    settling: Settling
+    answer: Settled = Settled.UNDECIDED
     calm: Outcome | None = None
     near: NearCycle | None = None
     stay: float = math.nan
 
-    @property
-    def settled(self) -> bool:
-        return self.settling.answer is Settled.SETTLED
-
     def end(self, run: Result) -> State:
         """The state after the last run: on the attractor, if that is known exactly."""
-        state = run.final_state
         if self.near is not None and self.near.cycle.state is not None:
-            state = self.near.cycle.state
-        return state
+            return self.near.cycle.state
+        return run.final_state
 
 
 def arrival(p: Parameters, legs: Sequence[Result]) -> Arrival:
@@ -111,19 +105,18 @@ def arrival(p: Parameters, legs: Sequence[Result]) -> Arrival:
 def proof(p: Parameters, leg: Result, most: int = sys.maxsize) -> Arrival | None:
     """What rest, eigenvalues of steady sliding or multipliers of a cycle of up to `most` releases prove
     at the end of a leg, also that the motion lingers near an unstable cycle."""
-    now = leg.final_state.time
-    equilibrium = find_equilibrium(p, leg)
-    if equilibrium is not None:
-        return Arrival(Settling(Settled.SETTLED, least=0.0, since=now), equilibrium)
+    calm = find_equilibrium(p, leg)
+    if calm is not None:
+        return Arrival(Settled.SETTLED, calm=calm)
     near = _cycle_reached(p, leg, most)
     if near is not None and near.follows_cycle:  # of stable cycles only
-        return Arrival(Settling(Settled.SETTLED, near.cycle.growth_rate, 0.0, now), near=near)
+        return Arrival(Settled.SETTLED, near=near)
     if near is not None and near.lingers:
-        return Arrival(Settling(Settled.CHANGING, near.cycle.growth_rate, 0.0))
+        return Arrival(Settled.CHANGING)
     return None
 
 
-def settling_of(legs: Sequence[Result]) -> Settling:
+def settling_of(legs: Sequence[Result]) -> Settled:
     """Whether a motion has settled by the record of its angles at releases and separations. If it
     loses contact and never sticks, it does not come to the section of the return map, so that
     multipliers cannot tell: it has settled if its losses repeat over the last `REPETITION` s."""
@@ -138,10 +131,9 @@ def settling_of(legs: Sequence[Result]) -> Settling:
         goes_on = losses[0] <= since and end - losses[-1] <= 2 * late.max()
         period = shortest_period(late) if goes_on else 0
         if period and max(float(np.ptp(late[i::period])) for i in range(period)) <= CLOSES:
-            visible = CLOSES / (STILL * float(late.mean()))  # relative, as for other records
-            return Settling(Settled.SETTLED, least=visible / REPETITION, since=since)
+            return Settled.SETTLED
     switches = np.isin(kind, (STICK_TO_SLIP, LOSS_OF_CONTACT))
-    return settling(time[switches], rows[switches, ANGLE])
+    return settling(time[switches], rows[switches, ANGLE]).answer
 
 
 def _cycle_reached(p: Parameters, leg: Result, most: int) -> NearCycle | None:
@@ -171,9 +163,9 @@ def settle(
         leg = simulate(p, begin + stay, tol=tol, initial_state=state)
         legs.append(leg)
         if not leg.status.complete:
-            return legs, Arrival(Settling())
+            return legs, Arrival()
         reached = arrival(p, legs)
-        if reached.settled or 2 * stay > longest:
+        if reached.answer is Settled.SETTLED or 2 * stay > longest:
             return legs, reached._replace(stay=stay)
         state = leg.final_state
         stay *= 2
@@ -234,13 +226,7 @@ def regularity(p: Parameters, state: State, tol: float) -> Motion:
     # otherwise the largest exponent decides; below -90/s it is not resolved by this interval, but
     # such a motion repeats
     largest = lyapunov_exponents(
-        p,
-        duration / 2,
-        count=1,
-        interval=0.25,
-        initial_state=state,
-        tol=tol,
-        leave_out_trivial=True,
+        p, duration / 2, count=1, interval=0.25, initial_state=state, tol=tol
     )
     rate = float(largest.exponents[0])
     error = float(largest.errors[0])
@@ -255,20 +241,16 @@ class Basins:
     """The attractors of a case, `known` in the order in which they were found: the stick-slip cycle, and
     those reached from `OWN_STARTS` and from later starts.
 
-    Motions are followed to the horizon (s). One that approaches an attractor counts as being on it
-    within a relative difference `near` in range; never with 0.
+    Motions are followed to the horizon (s). One that approaches an attractor counts as being on it.
 
     static : static deflection under the preload, m
     smallest : range of the height below which ranges count as equal, m
     cycle : the stick-slip cycle, if it exists and is stable
     """
 
-    def __init__(
-        self, p: Parameters, horizon: float, *, near: float = 0.1, tol: float = 1e-10
-    ) -> None:
+    def __init__(self, p: Parameters, horizon: float, *, tol: float = 1e-10) -> None:
         self.p = p
         self.horizon = horizon
-        self.near = near
         self.tol = tol
         modes = mode_arrays(p)
         self.static = p.N * float(np.sum(modes.psi**2 / modes.omega**2))
@@ -307,9 +289,8 @@ class Basins:
             # and at the horizon
             was_steady, steady = steady, self._is_steady(segments)
             over = state.time >= self.horizon
-            if self.near:
-                result.attractor = self._approached(segments, state)
-            if result.attractor is None and (over or (self.near and steady and not was_steady)):
+            result.attractor = self._approached(segments, state)
+            if result.attractor is None and (over or (steady and not was_steady)):
                 result.attractor = self._settled_on(legs, segments[-1], steady=steady, over=over)
         if result.attractor is not None:
             result.outcome = result.attractor.kind
@@ -356,7 +337,7 @@ class Basins:
         # it must be near, and no other one nearly as near
         last = [_relative_difference(ranges[-1], each.segment.range) for each in others]
         distance, *rivals = sorted(last)
-        if distance > self.near or (rivals and rivals[0] <= 2 * self.near):
+        if distance > APPROACHED or (rivals and rivals[0] <= 2 * APPROACHED):
             return None
 
         # it must be approached from leg to leg
@@ -394,7 +375,7 @@ class Basins:
         is `over`, or the last legs are as steady as those on a known attractor; None near an
         unstable cycle."""
         reached = proof(self.p, legs[-1], LARGEST_PERIOD)
-        settled = reached is not None or (over and settling_of(legs).answer is Settled.SETTLED)
+        settled = reached is not None or (over and settling_of(legs) is Settled.SETTLED)
         if reached is None:
             attractor = Attractor(Outcome.UNDECIDED, last)
         elif reached.near is not None:
@@ -431,11 +412,9 @@ class Basins:
     def _periodic(self, near: NearCycle, segment: Segment) -> Attractor:
         """A cycle as an attractor, with a segment of a motion on it."""
         cycle = near.cycle
-        others = near.map.returns(near.x, cycle.releases - 1, may_separate=True)
+        others = near.map.returns(near.x, cycle.releases - 1)
         points = np.array([near.x, *others])
-        return Attractor(
-            near.kind, segment, cycle.period, cycle.releases, cycle.growth_rate, points
-        )
+        return Attractor(near.kind, segment, cycle.period, cycle.releases, points)
 
 
 def _segment_of_sliding(p: Parameters) -> Segment:
@@ -455,25 +434,18 @@ def random_perturbation(p: Parameters, state: State, energy: float, key: Sequenc
     modes = mode_arrays(p)
     draw = np.random.default_rng(list(key)).standard_normal((4, len(modes.omega)))
     draw[2:, modes.diameters == 0] = 0.0
-    a = draw[0] / modes.omega
-    alpha = draw[1]
-    b = draw[2] / modes.omega
-    beta = draw[3]
+    ones = np.ones(len(modes.omega))
+    a, alpha, b, beta = draw / [modes.omega, ones, modes.omega, ones]
     u = float(modes.psi @ a)
     velocity = float(modes.psi @ alpha)
     surface = float(tangential_amplitudes(p) @ beta)
     squares = p.k * u**2 + p.m * velocity**2 + p.m * surface**2
-    energy_drawn = 0.5 * (float(np.sum(draw**2)) + squares)
-    size = math.sqrt(energy / energy_drawn)
+    size = math.sqrt(energy / (0.5 * (float(np.sum(draw**2)) + squares)))
     slope = float(np.sum(modes.diameters * modes.psi * b))
+    changes = {"a": a, "b": b, "alpha": alpha, "beta": beta, "u": u, "f": surface / p.r_0}
+    changes["u_velocity"] = velocity + slip_rate(p, state) * slope
     return state.replace(
-        a=state.a + size * a,
-        b=state.b + size * b,
-        alpha=state.alpha + size * alpha,
-        beta=state.beta + size * beta,
-        f=state.f + size * surface / p.r_0,
-        u=state.u + size * u,
-        u_velocity=state.u_velocity + size * (velocity + slip_rate(p, state) * slope),
+        **{name: getattr(state, name) + size * change for name, change in changes.items()}
     )
 
 

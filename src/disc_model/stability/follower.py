@@ -127,7 +127,7 @@ class NearCycle:
         """Whether the motion stays near an unstable cycle: over a period it hardly moves, as it
         would on a torus."""
         still = LINGERS * self.map.deflection
-        return not self.cycle.stable and self._advance(self.x + self.distance, 1).residual <= still
+        return not self.cycle.stable and self.advance(self.x + self.distance, 1).residual <= still
 
     @np.errstate(over="ignore", invalid="ignore")  # powers of a strongly unstable cycle's Jacobian
     def follows_multipliers(self, x: Array) -> bool:
@@ -142,16 +142,6 @@ class NearCycle:
             for times in TEST_TIMES
         )
 
-    def after(self, wait: float) -> "NearCycle | None":
-        """The motion after a time of about `wait` (s); None if it does not return."""
-        if not wait:
-            return self
-        periods = max(1, round(wait / self.cycle.period))
-        orbit = self._advance(self.x + self.distance, periods, coarse=False)
-        if not orbit.returned:
-            return None
-        return replace(self, distance=orbit.end - self.x, time=self.time + orbit.period)
-
     def extrapolate(self, latest: float) -> tuple[Array, float] | None:
         """Where a motion that slowly leaves an unstable cycle comes to as long as the linear map
         describes it, no later than at a time (s): point of the section and time; None if it leaves
@@ -159,46 +149,58 @@ class NearCycle:
 
         The growth rate's excess over the leading multiplier's is measured at larger and larger
         distances, as the motion might settle on a torus at any of them. It rises with the square of
-        the distance, so that half of it has come together on the way.
+        the distance, so that half of it has come together on the way. Its phase, which drifts with
+        the amplitude long before the growth rate does and matters only near borders, is ignored.
         """
         rate = self.cycle.growth_rate
+        period = self.cycle.period
         if rate > SLOW_DEPARTURE:
             return None
-        growth = math.log(abs(self.cycle.multipliers[0]))
-        last = max(0, math.ceil((latest - self.time) / self.cycle.period))
-        leading_part = float(abs(self.leading @ self.distance)) * float(np.linalg.norm(self.right))
-        leading_part = max(leading_part, sys.float_info.min)  # for its logarithm
         tested = TEST_TIMES[-1][-1]  # the test after it ends within `NEAR`
         factor = math.exp(rate * tested)
+        last = max(0, math.ceil((latest - self.time) / period))
+        part = float(abs(self.leading @ self.distance)) * float(np.linalg.norm(self.right))
+        part = max(part, sys.float_info.min)  # for its logarithm
+        farthest = NEAR * self.map.deflection
         reached = None
         for share in DEPARTURES:
-            size = share * NEAR / factor * self.map.deflection
-            periods = min(math.floor(math.log(size / leading_part) / growth), last)
+            size = share * farthest / factor
+            periods = min(math.floor(math.log(size / part) / (rate * period)), last)
             if periods <= 0:
                 continue
             distance = np.linalg.matrix_power(self.jacobian, periods) @ self.distance
             if self._share_outside(distance) > LARGEST_OUTSIDE:
                 continue  # parts of other multipliers have not decayed yet
-            if not np.linalg.norm(distance) <= NEAR * self.map.deflection:
+            if np.linalg.norm(distance) > farthest:
                 break
-            excess = self._excess_rate(distance)
+            orbit = self.advance(self.x + distance, max(1, round(tested / period)))
+            if not orbit.returned:
+                break
+            later = orbit.end - self.x
+            if self._share_outside(later) > LARGEST_OUTSIDE:
+                break
+            grown = math.log(abs(self.leading @ later) / abs(self.leading @ distance))
+            excess = grown / orbit.period / rate - 1
             if abs(excess) > LARGEST_EXCESS:
                 break
             gained = excess * tested / (factor**2 - 1)
-            reached = self.x + distance, self.time + periods * self.cycle.period - gained
-            if periods == last:
-                break
+            reached = self.x + distance, self.time + periods * period - gained
         return reached
 
-    def _advance(self, x: Array, periods: int, *, coarse: bool = True) -> Orbit:
+    def advance(self, x: Array, periods: int, *, coarse: bool = True) -> Orbit:
         """The motion from a point of the section over some periods of the cycle."""
         return self.map.evaluate(
-            x,
-            releases=periods * self.cycle.releases,
-            tangent=False,
-            may_separate=self.cycle.separations > 0,
-            coarse=coarse,
+            x, releases=periods * self.cycle.releases, tangent=False, coarse=coarse
         )
+
+    def _share_outside(self, distance: Array) -> float:
+        """Share of a distance from the cycle that lies outside the leading multiplier's
+        eigenspace."""
+        within = (self.leading @ distance) * self.right
+        if self.cycle.multipliers[0].imag:
+            within = 2 * within  # with that of the conjugate
+        outside = np.linalg.norm(distance - within.real)
+        return float(outside / np.linalg.norm(distance))
 
     def _motion(
         self, distance: Array, times: Sequence[float]
@@ -212,36 +214,13 @@ class NearCycle:
         done = 0
         for i, time in enumerate(times, 1):
             count = max(i, round(time / self.cycle.period)) - done
-            orbit = self._advance(x, count, coarse=coarse)
+            orbit = self.advance(x, count, coarse=coarse)
             if not orbit.returned:
                 return
             x = orbit.end
             expected = np.linalg.matrix_power(self.jacobian, count) @ expected
             yield x - self.x, expected, count * self.cycle.period
             done += count
-
-    def _excess_rate(self, distance: Array) -> float:
-        """Relative excess of the growth rate over the leading multiplier's; infinite unless the
-        motion departs. Its phase, which drifts with the amplitude long before the growth rate does
-        and matters only near borders, is ignored."""
-        apart = distance
-        durations = []
-        for apart, _, duration in self._motion(distance, TEST_TIMES[-1]):
-            durations.append(duration)
-            if not self._share_outside(apart) <= LARGEST_OUTSIDE:
-                return math.inf
-        if len(durations) < 2:
-            return math.inf
-        grown = math.log(abs(self.leading @ apart) / abs(self.leading @ distance))
-        return float(grown / sum(durations) / self.cycle.growth_rate - 1)
-
-    def _share_outside(self, distance: Array) -> float:
-        """Share of a distance from the cycle that lies outside the leading multiplier's
-        eigenspace."""
-        is_real = self.cycle.multipliers[0].imag == 0
-        eigenspace = self.right if is_real else 2 * self.right  # with that of the conjugate
-        within = np.real((self.leading @ distance) * eigenspace)
-        return float(np.linalg.norm(distance - within) / np.linalg.norm(distance))
 
 
 def _leading(matrix: Array, size: Callable[[ComplexArray], Array]) -> ComplexArray:
@@ -292,7 +271,7 @@ def find_cycle_near(
     release."""
     if not change <= NEAR / 2:
         return None
-    orbit = newton(map_, release.x, releases=releases, may_separate=map_.patient)
+    orbit = newton(map_, release.x, releases=releases)
     if orbit is None or map_.apart(orbit.start, release.x) > NEAR:
         return None
     cycle = cycle_of(map_, run_through_once(map_, orbit))
@@ -303,7 +282,7 @@ def close_return(map_: ReturnMap, x: Array, most: int = LARGEST_PERIOD) -> tuple
     """The first of the next returns of a motion from a release at `x`, at most `most`, that changes
     about least: change over the static deflection, and number of releases; nan and 0 if the motion
     does not return to the section at all."""
-    later = map_.returns(x, most, may_separate=map_.patient, coarse=True)
+    later = map_.returns(x, most, coarse=True)
     changes = [map_.apart(point, x) for point in later]
     for i, change in enumerate(changes, 1):
         if change <= 2 * min(changes):
@@ -318,14 +297,17 @@ def _relate(
     begin at the times `waits`, s after the release."""
     assert cycle.state is not None
     x = map_.point(cycle.state)
-    orbit = map_.evaluate(x, releases=cycle.releases, may_separate=cycle.separations > 0)
+    orbit = map_.evaluate(x, releases=cycle.releases)
     near = NearCycle(cycle, False, map_, x, release.x - x, orbit.jacobian, release.time)
     moving = near
     for wait in waits if release.reached else ():
-        later = moving.after(max(0.0, wait - (moving.time - release.time)))
-        if later is None:
-            break
-        moving = later
+        periods = round((wait - (moving.time - release.time)) / cycle.period)
+        if periods > 0:
+            later = moving.advance(x + moving.distance, periods, coarse=False)
+            if not later.returned:
+                break
+            time = moving.time + later.period
+            moving = replace(moving, distance=later.end - x, time=time)
         if near.follows_multipliers(x + moving.distance):
             return replace(moving, follows_cycle=True)
     return near
@@ -339,54 +321,41 @@ def find_equilibrium(p: Parameters, leg: Result) -> Outcome | None:
     approaches it; None if neither is shown."""
     if stick_share(leg) == 1 and never_pulls(p):
         return Outcome.AT_REST
-    if approaches_sliding(p, leg.final_state):
+    if _sliding(p).stable and follows_sliding(p, leg.final_state):
         return Outcome.STEADY_SLIDING
     return None
 
 
-def approaches_sliding(p: Parameters, state: State) -> bool:
-    """Whether a slipping motion approaches stable steady sliding as the eigenvalues there
-    predict."""
-    if state.phase != "slip" or not _sliding(p).stable:
-        return False
-    return _follows_eigenvalues(p, state, TEST_TIMES[-1], ARRIVED, NEAR)
-
-
-def departs_from_sliding(p: Parameters, state: State) -> bool:
-    """Whether a slipping motion departs from unstable steady sliding as the eigenvalues there
-    predict, for some seconds or until it has grown by a factor of e."""
-    if state.phase != "slip" or not _sliding(p).growing.size:
-        return False
-    first, last = TEST_TIMES[-1]
-    shorter = min(1.0, 1 / _sliding(p).growth_rate / last)
-    return _follows_eigenvalues(p, state, (shorter * first, shorter * last), 0.0, math.inf)
-
-
-def _follows_eigenvalues(
-    p: Parameters, state: State, times: tuple[float, float], arrived: float, farthest: float
-) -> bool:
-    """Whether a slipping motion follows the linear one about steady sliding at two times (s) from a
-    state on.
-
-    arrived, farthest : distance within which a motion has arrived, and the largest of the state,
-        over the static deflection
+def follows_sliding(p: Parameters, state: State) -> bool:
+    """Whether a slipping motion approaches stable steady sliding, or departs from unstable steady
+    sliding for some seconds or until it has grown by a factor of e, as the eigenvalues there predict.
 
     It is followed with `TEST_TOL`, because errors of coarser simulations keep it away: at 1e-10, by
     7e-7 of the static deflection on a disc whose modes of 2 kHz decay at 0.4/s.
     """
     sliding = _sliding(p)
+    if state.phase != "slip" or not (sliding.stable or sliding.growing.size):
+        return False
     modes = mode_arrays(p)
     scale = np.sqrt(energy_weights(p))  # by it the norm of rows is that of the energy
     jacobian = scale[:, None] * sliding.jacobian / scale
-    distance = scale * (rows_of_state(p, state) - sliding.rows)
     static = p.N * float(np.linalg.norm(modes.psi / modes.omega))
     if static == 0:  # a rigid disc: the spring in the plane, bent up to the limit of friction
         static = p.mu_s * p.N / math.sqrt(p.k_p)
-    if not np.linalg.norm(distance) <= farthest * static:
-        return False
+    times = TEST_TIMES[-1]
+    arrived = ARRIVED * static
+    farthest = NEAR * static
+    if not sliding.stable:
+        shorter = min(1.0, 1 / sliding.growth_rate / times[-1])
+        times = (shorter * times[0], shorter * times[-1])
+        arrived = 0.0
+        farthest = math.inf
+
+    def away(at: State) -> Array:
+        return np.asarray(scale * (rows_of_state(p, at) - sliding.rows), dtype=float)
 
     def motion() -> Iterator[tuple[Array, Array, float]]:
-        expected = distance
+        expected = away(state)
         before = 0.0
         for time in times:
             end = state.time + time
@@ -394,15 +363,13 @@ def _follows_eigenvalues(
             if not run.status.complete or run.final_state.phase != "slip":
                 return
             expected = expm(jacobian * (time - before)) @ expected
-            yield (
-                scale * (rows_of_state(p, run.final_state) - sliding.rows),
-                expected,
-                time - before,
-            )
+            yield away(run.final_state), expected, time - before
             before = time
 
+    if not np.linalg.norm(away(state)) <= farthest:
+        return False
     leading = _leading(jacobian.T, np.real)
-    return _is_as_expected(motion(), leading, sliding.growth_rate, arrived * static)
+    return _is_as_expected(motion(), leading, sliding.growth_rate, arrived)
 
 
 # ---- The search for an outcome
@@ -411,14 +378,12 @@ def _follows_eigenvalues(
 @dataclass(frozen=True, eq=False)
 class Attractor:
     """Outcome of motions on an attractor, and a segment of one; of a periodic one also period (s),
-    releases in it, growth rate (1/s) and points on the section over the static deflection, shape
-    (releases, n)."""
+    releases in it, and points on the section over the static deflection, shape (releases, n)."""
 
     kind: Outcome
     segment: Segment
     period: float = np.nan
     releases: int = 0
-    growth_rate: float = np.nan
     points: Array | None = None
 
 
@@ -430,8 +395,7 @@ class OutcomeResult:
     simulated, time : s, simulated time, 0 if multipliers decide; time at which the outcome was known
     near : the stable cycle that the motion approaches, or else the first unstable cycle from which it departs
     failed : the simulation that ended early
-    changes, times : changes from one period to the next, over the static deflection, and times of these (s)
-    distance : from the cycle, over the static deflection, at the end of the search
+    changes : changes from one period to the next, over the static deflection
     extrapolated : whether the linear map has replaced the simulation of a slow departure; the first
         separation is then known within `BORDER` only
     """
@@ -445,8 +409,6 @@ class OutcomeResult:
     state: State | None = None
     failed: Result | None = None
     changes: list[float] = field(default_factory=list)
-    times: list[float] = field(default_factory=list)
-    distance: float = np.nan
     extrapolated: bool = False
     segment: Segment | None = None
 
@@ -480,11 +442,6 @@ class OutcomeResult:
         if self.failed is None:
             return ""
         return self.failed.message
-
-    def note_change(self, change: float) -> None:
-        """Note how nearly the motion repeats."""
-        self.times.append(self.time)
-        self.changes.append(change)
 
 
 OPEN = (None, Outcome.SEPARATION, Outcome.GROWING, Outcome.UNDECIDED)
@@ -561,13 +518,15 @@ class _Search:
         leg = FIRST_LEG
         end = self.horizon
         while True:
-            if cycle is not None and cycle.cycle.stable:
-                return _on_cycle(result, cycle)
+            if cycle is not None and cycle.cycle.stable:  # on which it is for good
+                return replace(result, near=cycle, outcome=cycle.kind, time=cycle.time)
             if cycle is not None:
                 result.near = result.near or cycle
                 departs = True
-                if extrapolate:
-                    leg, end = self._extrapolate(result, cycle, leg, end)
+                if extrapolate and self._extrapolate(result, cycle):
+                    # nothing is to be seen before the departure has grown by a factor of e
+                    leg = min(max(leg, 1 / cycle.cycle.growth_rate), LONGEST_LEG)
+                    end = (1 + BORDER) * self.horizon
             if result.time >= end:
                 grows = departs or growing(result.changes)
                 result.outcome = Outcome.GROWING if grows else Outcome.UNDECIDED
@@ -578,7 +537,7 @@ class _Search:
             if self._ends_with(result, run, examined):
                 return result
             if examined and not departs and slips_on(run):
-                departs = departs_from_sliding(self.p, run.final_state)
+                departs = follows_sliding(self.p, run.final_state)
             # a cycle that it follows from here on
             cycle = self._cycle_at(result, run.final_state, examined)
             leg = min(2 * leg, LONGEST_LEG)
@@ -592,27 +551,22 @@ class _Search:
         if not run.status.complete:
             result.failed = run
             return True
-        if examined:
-            result.outcome = find_equilibrium(self.p, run)
-        if result.outcome is not None:
+        if examined and (calm := find_equilibrium(self.p, run)):
+            result.outcome = calm
             result.near = None
-        return result.outcome is not None
+            return True
+        return False
 
-    def _extrapolate(
-        self, result: OutcomeResult, near: NearCycle, leg: float, end: float
-    ) -> tuple[float, float]:
-        """Go on from where a slow departure ceases to be linear, if that is later; lengths of the next
-        leg and of the search (s)."""
+    def _extrapolate(self, result: OutcomeResult, near: NearCycle) -> bool:
+        """Go on from where a slow departure ceases to be linear; whether that is later."""
         departure = near.extrapolate(self.horizon)
         if departure is None or departure[1] <= result.time:
-            return leg, end
+            return False
         x, result.time = departure
         result.state = near.map.state(x).replace(time=result.time)
         result.extrapolated = True
-        result.note_change(close_return(near.map, x)[0])
-        # nothing is to be seen before the departure has grown by a factor of e
-        leg = min(max(leg, 1 / near.cycle.growth_rate), LONGEST_LEG)
-        return leg, (1 + BORDER) * self.horizon
+        result.changes.append(close_return(near.map, x)[0])
+        return True
 
     def _simulate(self, result: OutcomeResult, leg: float, end: float) -> Result:
         """Simulate a leg to its end or the first separation; the segment to be described is a leg
@@ -646,7 +600,7 @@ class _Search:
         if not release.reached:
             return None
         change, releases = close_return(self.map, release.x)
-        result.note_change(change)
+        result.changes.append(change)
         known = [each for each in result.changes if not math.isnan(each)]
         # a motion that comes to a cycle changes less and less, down to errors of the simulation
         least = max(ARRIVED, ERROR_OF_TOL * self.tol, *known[-2:][:1])
@@ -658,15 +612,6 @@ class _Search:
         if near is not None and near.follows_cycle:
             return near
         return None
-
-
-def _on_cycle(result: OutcomeResult, cycle: NearCycle) -> OutcomeResult:
-    """The outcome of a motion that is on a stable cycle for good."""
-    result.near = cycle
-    result.outcome = cycle.kind
-    result.time = cycle.time
-    result.distance = float(np.linalg.norm(cycle.distance)) / cycle.map.deflection
-    return result
 
 
 def slips_on(leg: Result) -> bool:

@@ -38,9 +38,7 @@ def frequencies(p: Parameters, *, tol: float = 1e-12) -> tuple[FloquetResult, Sl
     map_ = ReturnMap(p, tol)
     orbit = map_.evaluate(map_.point(cycle.state), releases=cycle.releases)
     multipliers, vectors = np.linalg.eig(orbit.jacobian)
-    shapes = np.transpose(
-        [map_.point_of(x.real) + 1j * map_.point_of(x.imag) for x in modes.shapes[:, disc].T]
-    )
+    shapes = np.transpose([map_.point_of(shape) for shape in modes.shapes[:, disc].T])
     shapes /= np.linalg.norm(shapes, axis=0)
 
     # two multipliers may match a mode: one resembles its shape, one the conjugate

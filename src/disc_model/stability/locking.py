@@ -87,22 +87,18 @@ def lock_of(releases: Releases) -> Lock | None:
     return Lock(n, vibrations, period)
 
 
-def locked_cycle(p: Parameters, state: State, lock: Lock) -> tuple[Orbit, Lock] | None:
-    """The cycle that a locked motion is on, with its shortest period, and its lock: while the motion
-    still settles, its record may repeat only after several of these. None if Newton's method finds no
-    cycle at the motion that repeats after as many releases and separations."""
+def locked_cycle(p: Parameters, state: State, lock: Lock) -> Orbit | None:
+    """The cycle that a locked motion is on, with its shortest period: while the motion still settles,
+    its record may repeat only after several of these. None if Newton's method finds no cycle at the
+    motion that repeats after as many releases and separations."""
     map_ = ReturnMap(p, patient=True)
     release = map_.next_release(state)
     if not release.reached:
         return None
-    orbit = newton(map_, release.x, releases=lock.releases, may_separate=True)
+    orbit = newton(map_, release.x, releases=lock.releases)
     if orbit is None or orbit.counts.separations != lock.vibrations:
         return None
-    orbit = run_through_once(map_, orbit)
-    n = orbit.counts.releases
-    if n < lock.releases:
-        lock = Lock(n, orbit.counts.separations, orbit.period)
-    return orbit, lock
+    return run_through_once(map_, orbit)
 
 
 class PhaseMap(NamedTuple):

@@ -1,9 +1,8 @@
 """Lyapunov exponents of a motion through all its events, in particular after a loss of contact.
 
 Columns of the variational equations are orthonormalised at equal intervals (Benettin's method).
-Columns turn slowly towards the motion, whose exponent is zero unless it comes to rest.  To leave it
-out, the first column is the motion's velocity, which stays so, and the others are kept orthogonal
-to it.
+The exponent along the motion, which is zero unless it comes to rest, is left out: the first column is
+the motion's velocity, which stays so, and the others are kept orthogonal to it.
 """
 
 import math
@@ -42,7 +41,7 @@ CONVERGED = (0.05, 0.002)
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Lyapunov(EqualByValue):
-    """The largest Lyapunov exponents.
+    """The largest Lyapunov exponents but the one along the motion, which is zero.
 
     Attributes
     ----------
@@ -53,9 +52,7 @@ class Lyapunov(EqualByValue):
     errors : 1/s, shape (count,): the standard error from the scatter of 16 segments of the time covered. The
         difference between its two halves replaces it if that is larger. nan for -inf
     duration : s, time covered, without that in which the columns converged
-    separations : losses of contact in that time
     converged : whether both halves of the time give the same finite exponent, shape (count,); see `CONVERGED`
-    trivial_exponent : 1/s, the exponent along the motion that was left out; nan if none was
     final_state : state at the end of the motion
     parameters : as given to `lyapunov_exponents`
     """
@@ -64,10 +61,8 @@ class Lyapunov(EqualByValue):
     exponents: Array
     errors: Array
     duration: float
-    separations: int
     converged: Mask
     final_state: State
-    trivial_exponent: float
     parameters: Parameters
 
     def __repr__(self) -> str:
@@ -90,22 +85,20 @@ def lyapunov_exponents(
     interval: Seconds = 0.01,
     initial_state: InstanceOf[State] | None = None,
     tol: Tolerance = 1e-10,
-    leave_out_trivial: bool = False,
 ) -> Lyapunov:
-    """The `count` largest Lyapunov exponents of the motion.
+    """The `count` largest Lyapunov exponents of the motion, without the one along it, which is zero; it
+    does not exist without events, as in steady sliding.
 
     Parameters
     ----------
     case : the case
     duration : s, averaging time. It follows an equal time in which the columns converge to their directions: with
         rates that differ by 0.05/s that takes tens of seconds
-    count : 1 to 8, and no more than the state has coordinates: 4 per pair of modes, 2 per axisymmetric one, and psi, f,
-        u, u'; one less if the trivial one is left out
+    count : 1 to 7, and fewer than the state has coordinates: 4 per pair of modes, 2 per axisymmetric one, and psi, f,
+        u, u'
     interval : s, between orthonormalisations; the duration holds at most `MOST_INTERVALS` of them
     initial_state : state at the start, such as that after a transient; None is the static start
     tol : tolerance, as in `simulate`
-    leave_out_trivial : whether to leave out the exponent along the motion, which is zero; it does not exist without
-        events, as in steady sliding
 
     Returns
     -------
@@ -121,12 +114,12 @@ def lyapunov_exponents(
     --------
     >>> import disc_model as dm
     >>> case = dm.Parameters(N=385, Omega=15)
-    >>> dm.lyapunov_exponents(case, 5, initial_state=dm.floquet(case).state, leave_out_trivial=True)
+    >>> dm.lyapunov_exponents(case, 5, initial_state=dm.floquet(case).state)
     Lyapunov(ok, over 5 s: -0.143 and -0.166 1/s)
     """
     computed = engine_case(case)
     coordinates = len(columns.coordinate_rows(computed.model))
-    most = min(columns.COLUMNS_AT_ONCE, coordinates) - int(leave_out_trivial)
+    most = min(columns.COLUMNS_AT_ONCE, coordinates) - 1
     require(
         (count <= most, "count", count, f"must be a whole number from 1 to {most}"),
         (interval * MOST_INTERVALS >= duration, "interval", interval, "is too short"),
@@ -141,10 +134,7 @@ def lyapunov_exponents(
     # components of a column below its tolerance, or below rounding, count as zero
     vanished = max(10 * tolerance, 1e-12)
     frame = _Frame(computed.model, order, vanished)
-    followed = count + int(leave_out_trivial)
-    frame.fill(state, followed)
-    if leave_out_trivial:
-        frame.put_motion_first(state)
+    frame.fill(state, 1 + count)
 
     # the same number of intervals for convergence, counted below zero, and for the averages
     steps = max(_BLOCKS, math.ceil(duration / interval))
@@ -153,7 +143,7 @@ def lyapunov_exponents(
     limits = loop.FlightLimits(
         order, tolerance, longest, length, 0, may_separate=True, tangent=True
     )
-    logs = np.full((steps, followed), -math.inf)
+    logs = np.full((steps, 1 + count), -math.inf)
     status = Status.OK
     done = 0
     for i in range(-steps, steps):
@@ -173,12 +163,9 @@ def lyapunov_exponents(
 
     exponents, errors, converged = averages(logs[:done], length)
     ranked = np.argsort(-exponents, kind="stable")
-    trivial = math.nan
-    # a motion at rest or in steady sliding has no trivial exponent
+    # a motion at rest or in steady sliding has no exponent along it
     log = frame.tangent.log
-    events = log[columns.RELEASES] + log[columns.STICKS] + log[columns.SEPARATIONS]
-    if leave_out_trivial and events > 0:
-        trivial = float(exponents[0])
+    if log[columns.RELEASES] + log[columns.STICKS] + log[columns.SEPARATIONS] > 0:
         ranked = ranked[ranked != 0]
     ranked = ranked[:count]
     return Lyapunov(
@@ -186,10 +173,8 @@ def lyapunov_exponents(
         exponents=exponents[ranked],
         errors=errors[ranked],
         duration=done * length,
-        separations=int(log[columns.SEPARATIONS]),
         converged=converged[ranked],
         final_state=read_state(computed, state),
-        trivial_exponent=trivial,
         parameters=case,
     )
 
@@ -232,15 +217,13 @@ class _Frame:
         self.remaining: Indices = np.arange(0)
 
     def fill(self, state: motion.EngineState, count: int) -> None:
-        """Set `count` columns to orthonormal ones in random directions, always the same."""
+        """Set `count` columns to orthonormal ones in random directions, always the same, but the first
+        to the motion's velocity, unless it is at rest."""
         drawn = np.random.default_rng(1).standard_normal((len(self.rows), count))
         self.columns[:] = 0.0
         self.columns[self.rows, :count] = drawn / self.metric
         self.remaining = np.arange(count)
         self.orthonormalise(state)
-
-    def put_motion_first(self, state: motion.EngineState) -> None:
-        """Set the first column to the motion's velocity, unless it is at rest."""
         rates = self.tangent.before
         saltation.rates(self.model, state, rates)
         velocity = rates.reshape(self.columns.shape)[:, 0]

@@ -1,10 +1,17 @@
-"""The return map of the stick-slip cycle, and its fixed points.
+"""The return map of cycles, on one of two sections, and its fixed points.
 
-The section is the instant before a forward release: g = 0 and T = mu_s P.  A point of it consists
-of the modal coordinates alone, because f follows from the speed of the surface and psi from the
-release condition, scaled to the norm of the disc's energy: omega a, omega b, alpha, beta.  On a
-rigid disc the section is a single point, to which all motions return that stick: size is 0.
-Derivatives come from the variational equations (`disc_model.engine.section`).
+Of stick-slip the section is the instant before a forward release: g = 0 and T = mu_s P.  A point of
+it consists of the modal coordinates alone, because f follows from the speed of the surface and psi
+from the release condition, scaled to the norm of the disc's energy: omega a, omega b, alpha, beta.
+On a rigid disc the section is a single point, to which all motions return that stick: size is 0.
+
+Of cycles that slip all the time it is where the slip speed rises through the drive's: f = Omega.
+Where the surface does not move, the spring in the plane is longest there.  Points have psi as well.
+Such cycles arise in a Hopf bifurcation of steady sliding, and end where they touch zero slip speed.
+Where friction falls with the speed they are usually unstable, and separate the motions that come to
+stick-slip from those that come to steady sliding.
+
+Derivatives come from the variational equations.
 """
 
 import math
@@ -15,10 +22,11 @@ from functools import cached_property, partial
 from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
+from scipy.optimize import brentq
 
 from disc_model.arrays import Array
 from disc_model.disc.plate import mode_arrays
-from disc_model.engine import columns, loop, section, tangent, transitions
+from disc_model.engine import columns, loop, saltation, section, tangent, transitions
 from disc_model.engine import state as motion
 from disc_model.engine.model import Model, build_state
 from disc_model.engine.series import build_series
@@ -53,7 +61,7 @@ MOST_HALVINGS = 7  # of such a step, before it is given up
 SLOW = 0.05  # a step that leaves more of the residual needs the Jacobian at its own point
 MOST_JACOBIANS = 14  # in a search for a fixed point
 COARSE_JACOBIANS = 3  # of these, which only give a direction
-# ends of motions that slip all the time, see `disc_model.stability.slipping`
+# ends of motions that slip all the time
 STOPS = -1
 VANISHED = -2
 ENDS = {
@@ -67,6 +75,8 @@ ENDS = {
     STOPS: "stops",
     VANISHED: "vanished",
 }
+
+NOWHERE = np.zeros(0)  # for a motion that goes on from the present state
 
 
 def longest_step(model: Model, order: int, tolerance: float) -> float:
@@ -179,7 +189,8 @@ class ReturnMap:
     static : (n,), static equilibrium under the preload. The motion from there need not come to this
         point: friction on the surface bends the disc during the first stick, see `first_release`
     deflection : norm of `static`, the unit of distances on the section; `tol` is the residual of cycles over it
-    patient : whether motions that separate are followed; their returns may take 60 times as long, about 5 s
+    patient : whether motions from points of the section are followed through separations; their returns may take 60
+        times as long, about 5 s. Otherwise they end there
     """
 
     slider: ClassVar[tuple[str, ...]] = ()
@@ -245,45 +256,18 @@ class ReturnMap:
         return longest
 
     def evaluate(
-        self,
-        x: Array,
-        *,
-        releases: int = 1,
-        tangent: bool = True,
-        may_separate: bool = False,
-        coarse: bool = False,
+        self, x: Array, *, releases: int = 1, tangent: bool = True, coarse: bool = False
     ) -> Orbit:
         """Follow the motion from `x` to the `releases`-th next release; `coarse` suffices for a
         direction."""
-        order = self.order
-        tolerance = self.tolerance
-        tolerance_of_columns = 10 * self.tolerance
-        if coarse:
-            order = min(20, order)
-            tolerance = 1e-9
-            tolerance_of_columns = 1e-5
-        longest = math.inf
-        if tangent:
-            longest = longest_step(self.model, order, tolerance_of_columns)
-        limits = loop.FlightLimits(
-            order,
-            tolerance,
-            longest,
-            int(releases) * self.longest,
-            int(releases),
-            bool(may_separate),
-            bool(tangent),
-        )
-
         start = np.array(x, dtype=float)
-        changes = self._tangent
         # the engine knows a start by its length, and reads as many numbers as the section has
         given = start if self.size else np.zeros(1)
-        code = section.integrate(
-            self.model, self._series, self._state, changes, limits, self._section, given
+        duration = int(releases) * self.longest
+        code = self._fly(
+            duration, releases, given, tangent=tangent, separate=self.patient, coarse=coarse
         )
-
-        log = changes.log
+        log = self._tangent.log
         events = log[columns.RELEASES : columns.STICKS + 1].astype(int)
         jacobian = self._section.jacobian
         last = self._first + len(self._names)
@@ -298,11 +282,40 @@ class ReturnMap:
             by=jacobian[:, self._first : last].copy(),
         )
 
+    def _fly(
+        self,
+        duration: float,
+        releases: int,
+        start: Array = NOWHERE,
+        *,
+        tangent: bool = False,
+        separate: bool = False,
+        coarse: bool = False,
+    ) -> int:
+        """Follow the motion from a point of the section, or from the present state, to the `releases`-th
+        next release, for at most a duration (s); or for this duration, with 0. Returns the exit code."""
+        order = self.order
+        tolerance = self.tolerance
+        tolerance_of_columns = 10 * self.tolerance
+        if coarse:
+            order = min(20, order)
+            tolerance = 1e-9
+            tolerance_of_columns = 1e-5
+        longest = math.inf
+        if tangent:
+            longest = longest_step(self.model, order, tolerance_of_columns)
+        limits = loop.FlightLimits(
+            order, tolerance, longest, duration, int(releases), bool(separate), bool(tangent)
+        )
+        return section.integrate(
+            self.model, self._series, self._state, self._tangent, limits, self._section, start
+        )
+
     def next_release(self, start: State) -> Passage:
         """The first passage of the motion from `start` through the section; a motion that loses
         contact before ends there, unless the map is patient."""
         write_state(self._case, start, self._state)
-        return self._follow_to_release(self.longest, may_separate=self.patient)
+        return self._follow_to_release(self.longest, separate=self.patient)
 
     @cached_property
     def first_release(self) -> Passage:
@@ -316,28 +329,18 @@ class ReturnMap:
         motion.copy_state(self._case.start, self._state)
         # four times the first stick of a rigid disc: surface friction and slopes change the loads
         stick = max(p.mu_s * p.N / p.r_0 - p.c_p * p.Omega, 0.0) / (p.k_p * p.Omega)
-        first = self._follow_to_release(4 * stick + self.longest, may_separate=False)
+        first = self._follow_to_release(4 * stick + self.longest)
         if not first.reached or first.time > 0.0:
             return first
-        return self._follow_to_release(self.longest, may_separate=False, releases=2)
+        return self._follow_to_release(self.longest, releases=2)
 
     def _follow_to_release(
-        self, duration: float, *, may_separate: bool, releases: int = 1
+        self, duration: float, releases: int = 1, *, separate: bool = False
     ) -> Passage:
         """Follow the motion from the present state for at most a duration (s) to a release."""
-        limits = loop.FlightLimits(
-            self.order,
-            self.tolerance,
-            math.inf,
-            duration,
-            releases,
-            may_separate=may_separate,
-            tangent=False,
-        )
-        code = section.integrate(self.model, self._series, self._state, self._tangent, limits)
+        code = self._fly(duration, releases, separate=separate)
         scalars = motion.scalars_of(self._state)
-        time = scalars["time"] + scalars["time_low"]
-        return Passage(code, time, self._coordinates())
+        return Passage(code, scalars["time"] + scalars["time_low"], self._section.end.copy())
 
     def apart(self, x: Array, y: Array) -> float:
         """Distance of two points of the section, over the static deflection."""
@@ -348,36 +351,164 @@ class ReturnMap:
         write_state(self._case, state, self._state)
         return self._coordinates()
 
-    def point_of(self, rows: Array) -> Array:
+    def point_of(self, rows: Any) -> Any:
         """Coordinates on the section of a state, or of a change of one, in the rows of
-        `SteadySliding.jacobian`."""
+        `SteadySliding.jacobian`; complex for a complex change."""
         modes = mode_arrays(self.parameters)
         (a, alpha, b, beta), slider, height = split_rows(modes, rows)
-        column = np.zeros(self._tangent.rows)
-        for places, values in zip(
-            motion.mode_places(modes.diameters), (a, b, alpha, beta), strict=True
-        ):
-            exists = places >= 0
-            column[places[exists]] = values[exists]
+        column = np.zeros(self._tangent.rows, rows.dtype)
+        places = np.concatenate(motion.mode_places(modes.diameters))
+        values = np.concatenate([a, b, alpha, beta])
+        column[places[places >= 0]] = values[places >= 0]
         column[self._rows[len(self.diameters) :]] = [*slider[: len(self.slider)], *height]
-        return np.asarray(column[self._rows] * self.scale, dtype=float)
+        return column[self._rows] * self.scale
 
     def state(self, x: Array) -> State:
         """The point `x` of the section as a `State` (time 0, at the end of stick)."""
         section.put_point(self.model, self._state, self._section, x)
         return read_state(self._case, self._state)
 
-    def returns(
-        self, x: Array, most: int, *, may_separate: bool = False, coarse: bool = False
-    ) -> Iterator[Array]:
+    def returns(self, x: Array, most: int, *, coarse: bool = False) -> Iterator[Array]:
         """Points of the motion from `x` at its next releases, at most `most`, as long as it
         returns."""
         for _ in range(most):
-            orbit = self.evaluate(x, tangent=False, may_separate=may_separate, coarse=coarse)
+            orbit = self.evaluate(x, tangent=False, coarse=coarse)
             if not orbit.returned:
                 return
             x = orbit.end
             yield x
+
+
+# ---- The section of cycles that slip all the time
+
+PIECES = 16  # in a period of the fastest mode, or of the slider on its spring: none hides a passage
+LONGEST = 20.0  # periods of the slider on its spring up to a return
+# amplitude of f, over Omega, below which a cycle is steady sliding: the
+# parameter of a Hopf point, which depends on its square, is known to 1e-8
+SMALLEST_CYCLE = 1e-4
+SAME_TIME = 1e-9  # error of a passage over a piece: what remains is its square
+NO_EVENTS = Counts(0, 0, 0, 0, 0)
+
+
+class SlippingMap(ReturnMap):
+    """As `ReturnMap`, on the section f = Omega, with psi among the coordinates, behind those of the
+    modes. A motion that separates is never followed, as its map is not smooth."""
+
+    slider = ("psi",)
+
+    def __init__(self, p: Parameters, *args: Any, **options: Any) -> None:
+        super().__init__(p, *args, **options)
+        self.deflection = math.hypot(self.deflection, p.mu_s * p.N / math.sqrt(p.k_p))
+        self._before = build_state(self.model)
+        # the engine gives f as well, behind the coordinates
+        rows = np.append(self._rows, columns.coordinate_rows(self.model, ("f",))[-1])
+        changes = np.zeros((self.size + 1, self._tangent.columns))
+        scale = np.append(self.scale, 1.0)
+        self._section = section.Section(rows, scale, np.zeros(self.size + 1), changes)
+        # changes of f on the section with each column
+        self._moves = np.zeros(self._tangent.columns)
+        if "Omega" in self._names:
+            self._moves[self._first + self._names.index("Omega")] = 1.0
+
+    @np.errstate(divide="ignore", invalid="ignore")  # where the motion does not return
+    def evaluate(
+        self, x: Array, *, releases: int = 1, tangent: bool = True, coarse: bool = False
+    ) -> Orbit:
+        """Follow the motion from `x` to its next passage; `releases` and `coarse` have no meaning."""
+        start = np.array(x, dtype=float)
+        self._put(start)
+        acceleration = self._rates()[-1]
+        outcome, period = self._follow_to_passage()
+        # the amplitude of an oscillation about steady sliding
+        smallest = math.tau * SMALLEST_CYCLE * self.model.Omega
+        if outcome == RETURNED and acceleration * period < smallest:
+            outcome = VANISHED
+        if outcome == RETURNED and tangent:
+            self._put(start)
+            self._put_columns()
+            outcome = self._advance(period, tangent=True)
+
+        # to the section along the motion: by rounding, and by the change of the time of passage
+        *rates, acceleration = self._rates()
+        along = np.array(rates) / acceleration
+        end = self._section.end[:-1] - along * self._excess
+        changes = self._section.jacobian
+        changes = changes[:-1] - np.outer(along, changes[-1] - self._moves)
+        by_start, by = changes[:, : self.size], changes[:, self._first :][:, : len(self._names)]
+        period -= self._excess / acceleration
+        return Orbit(outcome, period, 0.0, NO_EVENTS, start, end, by_start, by)
+
+    def state(self, x: Array) -> State:
+        """The point `x` of the section as a `State` in slip, at time 0."""
+        self._put(x)
+        return read_state(self._case, self._state)
+
+    def _put(self, x: Array) -> None:
+        """Put the engine's state at a point of the section, in slip at time 0."""
+        column = np.zeros(self._tangent.rows)
+        column[self._section.rows] = [*(x / self.scale), self.model.Omega]
+        columns.put_column(self._state, self.model, column)
+        motion.put_phase(self._state, motion.SLIP, 1)
+
+    def _put_columns(self) -> None:
+        """Set the columns to unit changes of the coordinates, and those of parameters to the change
+        of the section with them."""
+        changes = np.zeros((self._tangent.rows, self._tangent.columns))
+        changes[self._rows, np.arange(self.size)] = 1 / self.scale
+        changes[self._section.rows[-1]] = self._moves
+        blocks = changes.reshape(len(changes), -1, columns.COLUMNS_AT_ONCE).swapaxes(0, 1)
+        self._tangent.now[:] = blocks.ravel()
+        saltation.slider_rows(self.model, self._state, self._tangent)
+
+    def _rates(self) -> Array:
+        """Rates of the coordinates and of f."""
+        before = self._tangent.before
+        saltation.rates(self.model, self._state, before)
+        rates = before.reshape(self._tangent.rows, -1)[self._section.rows, 0]
+        return np.asarray(rates * self._section.scale, dtype=float)
+
+    @property
+    def _excess(self) -> float:
+        """The slip speed over the drive's where the motion has ended, rad/s."""
+        return float(self._section.end[-1] - self.model.Omega)
+
+    def _advance(self, duration: float, *, tangent: bool = False) -> int:
+        """Follow the motion for a duration (s); `RETURNED`, or why it does not slip on until then."""
+        events = self._tangent.log[columns.RELEASES : columns.STICKS + 1]
+        events[:] = 0.0
+        code = self._fly(duration, 0, tangent=tangent)
+        if code != transitions.TIME_OVER:
+            return code
+        return STOPS if events.any() else RETURNED
+
+    def _follow_to_passage(self) -> tuple[int, float]:
+        """Follow the motion from the present state to the next passage through the section: exit code
+        and time (s)."""
+        model = self.model
+        slowest = math.tau * math.sqrt(model.m / model.k_p)
+        fastest = max(model.stiffness.max(), model.stiffness0.max(initial=0), model.k_p / model.m)
+        piece = math.tau / math.sqrt(fastest) / PIECES
+        is_slower = False  # whether the slider has been slower than the drive since the start
+
+        def excess_after(time: float) -> float:
+            motion.copy_state(self._before, self._state)
+            self._advance(time)
+            return self._excess
+
+        for number in range(math.ceil(LONGEST * slowest / piece)):
+            motion.copy_state(self._state, self._before)
+            code = self._advance(piece)
+            if code != RETURNED:
+                return code, number * piece
+            if is_slower and self._excess >= 0:
+                time = float(brentq(excess_after, 0.0, piece, xtol=SAME_TIME * piece))
+                excess_after(time)
+                return RETURNED, number * piece + time
+            is_slower = self._excess < 0
+        return VANISHED, LONGEST * slowest
+
+
+# ---- Fixed points
 
 
 def rounding(tol: float, factor: float) -> float:
@@ -386,9 +517,7 @@ def rounding(tol: float, factor: float) -> float:
     return max(tol, min(factor * tol, 1e-8))
 
 
-def newton(
-    map_: ReturnMap, x: Array, *, releases: int = 1, may_separate: bool = False
-) -> Orbit | None:
+def newton(map_: ReturnMap, x: Array, *, releases: int = 1) -> Orbit | None:
     """The orbit from a fixed point of the map, by Newton's method with a line search; None if it
     finds none.
 
@@ -396,7 +525,7 @@ def newton(
     up to ten thousand times as much is accepted, but never more than 1e-8.  Jacobians are reused;
     the result has that of the fixed point.
     """
-    follow = partial(map_.evaluate, releases=releases, may_separate=may_separate)
+    follow = partial(map_.evaluate, releases=releases)
     goal = map_.tol * map_.deflection
     orbit = follow(x, coarse=True)
     jacobian = orbit.jacobian

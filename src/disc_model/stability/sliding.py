@@ -17,8 +17,8 @@ membrane; its equilibrium is followed from that of no load.
 """
 
 import math
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
 from types import FunctionType, ModuleType, SimpleNamespace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -26,11 +26,10 @@ import numpy as np
 from scipy.optimize import brentq
 
 from disc_model.arrays import Array, ComplexArray, EqualByValue, Indices
-from disc_model.data.variables import values_text
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import Modes, modal_damping, mode_arrays, tangential_amplitudes
 from disc_model.disc.stretched import membrane_forces
-from disc_model.display import Summarised, drawings, number_text
+from disc_model.display import drawings, number_text
 from disc_model.engine import laws
 from disc_model.errors import StatusBase, require
 from disc_model.parameters import Parameters, require_case
@@ -97,7 +96,7 @@ class SlidingStatus(StatusBase):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class SteadySliding(Summarised, EqualByValue):
+class SteadySliding(EqualByValue):
     """The sliding equilibrium.
 
     Attributes
@@ -109,8 +108,8 @@ class SteadySliding(Summarised, EqualByValue):
     eigenvalues : 1/s, complex, largest real part first; (4 per pair of modes + 2 per axisymmetric mode + 2,),
         plus 2 on a compliant contact
     growth_rate : 1/s, largest real part of the eigenvalues, and exactly 0 where that is nothing but rounding
-    jacobian : Jacobian of the equations of slip; rows a and alpha of all modes, b and beta of the pairs, psi, f, and
-        u, u' on a compliant contact
+    rows, jacobian : the state, and the Jacobian of the equations of slip; rows a and alpha of all modes, b and beta of
+        the pairs, psi, f, and u, u' on a compliant contact
     parameters : as given to `steady_sliding`
     rates : rad/s, (n,), rates g over the material of all equilibria that were found, ascending; `rate` is that of
         this one, Omega unless friction moves the surface
@@ -126,6 +125,7 @@ class SteadySliding(Summarised, EqualByValue):
     beta: Array = field(default_factory=lambda: np.zeros(0), repr=False)
     eigenvalues: ComplexArray = field(default_factory=lambda: np.zeros(0, complex), repr=False)
     growth_rate: float = math.nan
+    rows: Array = field(default_factory=lambda: np.zeros(0), repr=False)
     jacobian: Array = field(default_factory=lambda: np.zeros((0, 0)), repr=False)
     parameters: Parameters | None = None
     rates: Array = field(default_factory=lambda: np.zeros(0), repr=False)
@@ -134,7 +134,7 @@ class SteadySliding(Summarised, EqualByValue):
     def __repr__(self) -> str:
         if not self.eigenvalues.size:
             return f"SteadySliding({self.message})"
-        fastest = f"growth rate {self.rate_text} at {number_text(self.frequency, 'Hz')}"
+        fastest = f"growth rate {self.growth_rate:.6g} 1/s at {number_text(self.frequency, 'Hz')}"
         return f"SteadySliding({self.message}, {fastest}, {self.eigenvalues.size} eigenvalues)"
 
     def __str__(self) -> str:
@@ -142,27 +142,6 @@ class SteadySliding(Summarised, EqualByValue):
         if len(table):
             return f"{self!r}\n{table.to_string()}"
         return repr(self)
-
-    def _summary(self) -> Iterator[tuple[str, object]]:
-        if self.parameters is not None:
-            yield "case", values_text(dict(self.parameters))
-        yield "status", self.message
-        yield "contact force", number_text(self.contact_force, "N")
-        yield "angle psi", number_text(self.psi, "rad")
-        yield "growth rate", self.rate_text
-        growing = self.growing
-        yield "unstable modes", growing.size if self.eigenvalues.size else ""
-        frequencies = [number_text(value.imag / math.tau, "Hz") for value in growing]
-        yield "growing frequencies", ", ".join(frequencies)
-
-    @property
-    def rows(self) -> Array:
-        """The equilibrium in the rows of the Jacobian."""
-        p = self.parameters
-        assert p is not None
-        height = (height_of_slider(p, self), 0.0) if contact_compliance(p) else ()
-        disc = (self.a, self.alpha, self.b, self.beta)
-        return np.asarray(join_rows(mode_arrays(p), disc, (self.psi, p.Omega), height), float)
 
     @property
     def frequency(self) -> float:
@@ -176,7 +155,7 @@ class SteadySliding(Summarised, EqualByValue):
         """Oscillating modes that grow or nearly do, with a damping ratio below 0.0005: the fastest first.
 
         Columns are those numbers of `SlidingModes` that each mode has one of: frequency (Hz), growth_rate
-        (1/s), damping_ratio, diameters, circles, and shares of the energy: disc, across, in_plane.
+        (1/s), damping_ratio, diameters, circles, and the disc's share of the energy.
         """
         from pandas import DataFrame  # slow to import, as most of what follows does without
 
@@ -187,11 +166,6 @@ class SteadySliding(Summarised, EqualByValue):
             table = DataFrame({name: getattr(found, name) for name in TABLE})
         table = table[table["damping_ratio"] < NEARLY]
         return table.sort_values("growth_rate", ascending=False, ignore_index=True)
-
-    @property
-    def rate_text(self) -> str:
-        """The growth rate with its unit; "" if there is none."""
-        return number_text(self.growth_rate, "1/s")
 
     @property
     def stable(self) -> bool:
@@ -205,13 +179,6 @@ class SteadySliding(Summarised, EqualByValue):
         upper one."""
         grows = growth_rates(self.eigenvalues) > 0
         return self.eigenvalues[grows & (self.eigenvalues.imag >= 0)]
-
-    @property
-    def neutral(self) -> ComplexArray:
-        """Eigenvalues of modes that neither grow nor decay by more than rounding, 1/s, (n,); of a
-        conjugate pair the upper one."""
-        rests = growth_rates(self.eigenvalues) == 0
-        return self.eigenvalues[rests & (self.eigenvalues.imag >= 0)]
 
     def plot(self, ax: Any = None, **look: Any) -> Any:
         """Draw the frequencies of the modes over their growth rates, with rings around those that
@@ -263,15 +230,17 @@ def steady_sliding(case: Parameters) -> SteadySliding:
     >>> print(sliding.message, f"{sliding.growth_rate:.4f} 1/s")
     steady sliding with P = 384.977 N, not stable 0.0339 1/s
     """
-    sliding = _equilibrium(case)
-    return _with_eigenvalues(sliding, np.linalg.eigvals(sliding.jacobian))
+    status, slips = _equilibria(case)
+    jacobian = slips[0].jacobian if slips else np.zeros((0, 0))
+    return _described(case, status, slips, np.linalg.eigvals(jacobian))
 
 
-def _equilibrium(case: Parameters) -> SteadySliding:
-    """Steady sliding without its eigenvalues, or why there is none."""
+def _equilibria(case: Parameters) -> tuple[SlidingStatus, list["_Slip"]]:
+    """All equilibria that are found, that whose rate is nearest to the drive's first; or why there is
+    none."""
     require_case(case)
     if case.Omega == 0:
-        return _absent(case, SlidingStatus.AT_REST)
+        return SlidingStatus.AT_REST, []
     disc = _Response(case)
     linear = disc.equilibria()
     every = [slip for slip in map(disc.slip_at, linear) if slip is not None]
@@ -279,67 +248,55 @@ def _equilibrium(case: Parameters) -> SteadySliding:
     carried.sort(key=lambda each: abs(each.rate - case.Omega))
     if not carried:
         if not case.N > 0:
-            return _absent(case, SlidingStatus.NO_LOAD)
-        return _absent(case, SlidingStatus.NO_CONTACT if every else SlidingStatus.NOT_FOUND)
-    found = carried[0]
-    if found.denominator <= 1e-6:
-        return _absent(case, SlidingStatus.PARADOX)
+            return SlidingStatus.NO_LOAD, []
+        return (SlidingStatus.NO_CONTACT if every else SlidingStatus.NOT_FOUND), []
+    if carried[0].denominator <= 1e-6:
+        return SlidingStatus.PARADOX, []
     # without a spring, friction at this speed and the slope must both be zero, which is exact then
     if case.k_p == 0 and any(each.H != 0 for each in linear):
-        return _absent(case, SlidingStatus.NO_SPRING)
-    return _described(case, carried, stretches=bool(disc.model.has_stretching))
-
-
-def _described(case: Parameters, carried: Sequence["_Slip"], *, stretches: bool) -> SteadySliding:
-    """Steady sliding, without its eigenvalues, at the first of some equilibria."""
-    (a, alpha, b, beta), (psi, _), _ = split_rows(mode_arrays(case), carried[0].rows)
-    if case.k_p == 0:
-        psi = math.nan
-    status = SlidingStatus.OK
-    if stretches:
-        status = SlidingStatus.FURTHER
+        return SlidingStatus.NO_SPRING, []
     if len(carried) > 1:
-        status = SlidingStatus.SEVERAL
+        return SlidingStatus.SEVERAL, carried
+    return (SlidingStatus.FURTHER if disc.model.has_stretching else SlidingStatus.OK), carried
+
+
+def _described(
+    case: Parameters, status: SlidingStatus, slips: Sequence["_Slip"], values: np.ndarray
+) -> SteadySliding:
+    """Steady sliding at the first of some equilibria, with the eigenvalues of its Jacobian, in any
+    order; or without one."""
+    if not slips:
+        return SteadySliding(status, status.advice, parameters=case)
+    slip = slips[0]
+    (a, alpha, b, beta), (psi, _), _ = split_rows(mode_arrays(case), slip.rows)
+    eigenvalues = values[np.argsort(-values.real, kind="stable")].astype(complex)
+    growth_rate = float(growth_rates(eigenvalues)[0])
+    verdict = "neutral"
+    if growth_rate > 0:
+        verdict = "not stable"
+    elif growth_rate < 0:
+        verdict = "stable"
+    symbol = "R" if case.contact_force == "normal" else "P"
+    message = f"steady sliding with {symbol} = {slip.force:.6g} N, {verdict}"
+    if status is SlidingStatus.SEVERAL:
+        message += f"; the nearest to the drive's rate of {len(slips)} equilibria"
     return SteadySliding(
         status,
-        "",
-        carried[0].force,
-        float(psi),
+        message,
+        slip.force,
+        float(psi) if case.k_p else math.nan,
         a,
         b,
         alpha,
         beta,
-        jacobian=carried[0].jacobian,
-        parameters=case,
-        rates=np.sort([each.rate for each in carried]),
-        rate=carried[0].rate,
+        eigenvalues,
+        growth_rate,
+        slip.rows,
+        slip.jacobian,
+        case,
+        rates=np.sort([each.rate for each in slips]),
+        rate=slip.rate,
     )
-
-
-def _with_eigenvalues(sliding: SteadySliding, values: np.ndarray) -> SteadySliding:
-    """Steady sliding with the eigenvalues of its Jacobian, in any order."""
-    if not sliding.status.exists or sliding.parameters is None:
-        return sliding
-    eigenvalues = values.astype(complex)
-    eigenvalues = eigenvalues[np.argsort(-eigenvalues.real, kind="stable")]
-    growth_rate = float(growth_rates(eigenvalues)[0])
-    verdict = "neutral"
-    if growth_rate != 0:
-        verdict = "not stable"
-        if growth_rate < 0:
-            verdict = "stable"
-    symbol = "P"
-    if sliding.parameters.contact_force == "normal":
-        symbol = "R"
-    message = f"steady sliding with {symbol} = {sliding.contact_force:.6g} N, {verdict}"
-    if sliding.status is SlidingStatus.SEVERAL:
-        message += f"; the nearest to the drive's rate of {len(sliding.rates)} equilibria"
-    return replace(sliding, message=message, eigenvalues=eigenvalues, growth_rate=growth_rate)
-
-
-def _absent(p: Parameters, status: SlidingStatus) -> SteadySliding:
-    """The result for a case without steady sliding."""
-    return SteadySliding(status, status.advice, parameters=p)
 
 
 # ---- The equilibrium of the disc: by the modal solve at a rate g, and a search for that rate
@@ -564,12 +521,10 @@ def split_rows(modes: Modes, rows: Any) -> tuple[Any, Any, Any]:
 
 
 def height_of_slider(p: Parameters, sliding: SteadySliding) -> float:
-    """Height u of the slider on a compliant contact in steady sliding, m."""
-    # the contact's force is that of the slider's spring: (w - u) / compliance = N + k (u - u_0)
-    compliance = contact_compliance(p)
-    load = p.N - p.k * engine_case(p).model.u_0
-    w = float(mode_arrays(p).psi @ sliding.a)
-    return (w - compliance * load) / (1 + p.k * compliance)
+    """Height u of the slider in steady sliding, m."""
+    modes = mode_arrays(p)
+    _, _, height = split_rows(modes, sliding.rows)
+    return float(height[0] if len(height) else modes.psi @ sliding.a)
 
 
 def join_rows(
@@ -605,7 +560,7 @@ class SlidingModes:
     damping_ratio : (n,), negative for a mode that grows, and 0 where the growth rate is
     diameters, circles : (n,), nodal diameters and circles of the disc's modes with most energy; -1 if the slider's
         in-plane motion has most
-    disc, across, in_plane : (n,), shares of the energy: of the disc, and of the slider across the disc and in its plane
+    disc : (n,), the disc's share of the energy; the rest is the slider's, across the disc and in its plane
     forward : (n,), share of these modes' energy in waves that travel with the slider, seen at f - l Omega / 2 pi
     shapes : (rows of `SteadySliding.jacobian`, n)
     """
@@ -616,16 +571,11 @@ class SlidingModes:
     diameters: Indices
     circles: Indices
     disc: Array
-    across: Array
-    in_plane: Array
     forward: Array
     shapes: ComplexArray = field(repr=False)
 
 
-TABLE = (
-    *("frequency", "growth_rate", "damping_ratio", "diameters", "circles"),
-    *("disc", "across", "in_plane"),
-)
+TABLE = ("frequency", "growth_rate", "damping_ratio", "diameters", "circles", "disc")
 """Columns of the table of modes."""
 
 
@@ -640,9 +590,9 @@ def sliding_modes(p: Parameters, sliding: SteadySliding | None = None) -> Slidin
 def _sliding_and_modes(p: Parameters) -> tuple[SteadySliding, SlidingModes]:
     """Steady sliding and its modes, of which there are none without it. Values and shapes come from
     one solution of the eigenvalue problem, which takes nearly all of the time of 100 modes."""
-    sliding = _equilibrium(p)
-    values, vectors = np.linalg.eig(sliding.jacobian)
-    return _with_eigenvalues(sliding, values), _modes_of(p, values, vectors)
+    status, slips = _equilibria(p)
+    values, vectors = np.linalg.eig(slips[0].jacobian if slips else np.zeros((0, 0)))
+    return _described(p, status, slips, values), _modes_of(p, values, vectors)
 
 
 def _modes_of(p: Parameters, values: ComplexArray, vectors: ComplexArray) -> SlidingModes:
@@ -671,7 +621,6 @@ def _modes_of(p: Parameters, values: ComplexArray, vectors: ComplexArray) -> Sli
     u = height[0] if len(height) else modes.psi @ shape
     across = np.abs(u) ** 2 * (p.k + p.m * np.abs(values) ** 2)
     in_plane = np.sum(np.abs(slider) ** 2, axis=0)
-    whole = disc + across + in_plane
     slides = in_plane > disc
     return SlidingModes(
         frequency=values.imag / (2 * math.pi),
@@ -679,9 +628,7 @@ def _modes_of(p: Parameters, values: ComplexArray, vectors: ComplexArray) -> Sli
         damping_ratio=np.asarray((0.0 - growth_rate) / np.abs(values), dtype=float),
         diameters=np.where(slides, -1, diameters).astype(np.int64),
         circles=np.where(slides, -1, circles).astype(np.int64),
-        disc=disc / whole,
-        across=across / whole,
-        in_plane=in_plane / whole,
+        disc=disc / (disc + across + in_plane),
         forward=forward,
         shapes=vectors,
     )
@@ -699,54 +646,53 @@ HALVINGS = 6
 
 
 class FollowedModes(NamedTuple):
-    """Steady sliding of a case and its modes; their numbers, and likeness (modal assurance
-    criterion, the squared cosine of shapes) to the modes of the case before that have them, nan for
-    new ones, both (n,)."""
+    """Steady sliding of a case and its modes, and their numbers, (n,)."""
 
     sliding: SteadySliding
     modes: SlidingModes
     numbers: Indices
-    mac: Array
 
 
 def follow_modes(cases: Sequence[Parameters]) -> list[FollowedModes]:
     """Steady sliding and its modes along cases that differ in numbers.
 
     Modes keep the numbers that they have by frequency, from 0 on, in the first case; modes that
-    appear later have the next ones. Further cases between two are computed until it is clear which
-    mode is which. Numbers begin anew where a disc has another number of modes.
+    appear later have the next ones. Shapes are compared by the modal assurance criterion (MAC), the
+    squared cosine. Further cases between two are computed until it is clear which mode is which.
+    Numbers begin anew where a disc has another number of modes.
     """
     followed = list[FollowedModes]()
-    shapes = list[ComplexArray]()  # of each number, the last one
+    shapes = dict[int, ComplexArray]()  # of each number, the last one
     before: Parameters | None = None
     for p in cases:
         sliding, modes = _sliding_and_modes(p)
-        numbers, mac = _numbered(shapes, before, p, modes, HALVINGS)
-        followed.append(FollowedModes(sliding, modes, numbers, mac))
+        numbers = _numbered(shapes, before, p, modes, HALVINGS)
+        followed.append(FollowedModes(sliding, modes, numbers))
         before = p
     return followed
 
 
 def _numbered(
-    shapes: list[ComplexArray],
+    shapes: dict[int, ComplexArray],
     before: Parameters | None,
     p: Parameters,
     modes: SlidingModes,
     halvings: int,
-) -> tuple[Indices, Array]:
-    """Numbers and likeness of the modes of a case; `shapes`, by number, become those of this
-    case. Where the modes are in doubt, the case `before` is followed to this one by halves of the
-    way, up to so many `halvings`."""
+) -> Indices:
+    """Numbers of the modes of a case; `shapes`, by number, become those of this case. Where the modes
+    are in doubt, the case `before` is followed to this one by halves of the way, up to so many
+    `halvings`."""
     # slow to import, and steady sliding alone does without
     from scipy.optimize import linear_sum_assignment
 
     if not len(modes.frequency):
-        return np.zeros(0, np.int64), np.zeros(0)
+        return np.zeros(0, np.int64)
     scaled = np.sqrt(energy_weights(p))[:, None] * modes.shapes
     scaled = scaled / np.linalg.norm(scaled, axis=0)
     if shapes and len(shapes[0]) != len(scaled):
         shapes.clear()
-    mac = np.abs(np.array(shapes).reshape(len(shapes), len(scaled)).conj() @ scaled) ** 2
+    known = np.array([*shapes.values()]).reshape(len(shapes), len(scaled))
+    mac = np.abs(known.conj() @ scaled) ** 2
     numbers, places = linear_sum_assignment(-mac)
     if before is not None and halvings and mac[numbers, places].min(initial=1) < ALIKE:
         between = _case_between(before, p)
@@ -758,12 +704,9 @@ def _numbered(
 
     matched = np.full(len(modes.frequency), -1)
     matched[places] = numbers
-    likeness = np.full(len(modes.frequency), math.nan)
-    likeness[places] = mac[numbers, places]
     matched[matched < 0] = len(shapes) + np.arange(np.sum(matched < 0))
-    for number, shape in sorted(zip(matched, scaled.T, strict=True), key=lambda pair: pair[0]):
-        shapes[number : number + 1] = [shape]
-    return matched, likeness
+    shapes.update(zip(matched.tolist(), scaled.T, strict=True))
+    return matched
 
 
 def _case_between(before: Parameters, after: Parameters) -> Parameters | None:

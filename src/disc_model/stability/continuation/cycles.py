@@ -49,8 +49,7 @@ from disc_model.stability.continuation.curve import (
     turns_between,
 )
 from disc_model.stability.cycle import SLIPPING, find_cycle, multipliers
-from disc_model.stability.return_map import ENDS, PARAMETERS, Orbit, ReturnMap
-from disc_model.stability.slipping import SlippingMap, find_slipping_cycle
+from disc_model.stability.return_map import ENDS, PARAMETERS, Orbit, ReturnMap, SlippingMap
 
 # typical values of parameters whose value in Table 1 is missing or 0
 USUAL = {
@@ -203,9 +202,7 @@ class CycleProblem:
     def follow(self, z: Array, *, tangent: bool) -> Orbit:
         """The motion from a point to its return, whatever its end."""
         x = self.section_point(z)
-        releases = max(self.releases, 1)
-        separate = self.releases > 0
-        return self.map_at(z).evaluate(x, releases=releases, tangent=tangent, may_separate=separate)
+        return self.map_at(z).evaluate(x, releases=max(self.releases, 1), tangent=tangent)
 
     def _return(self, z: Array, *, tangent: bool) -> tuple[Orbit, Array]:
         """The motion from a point to its return, and F."""
@@ -293,9 +290,8 @@ def first_cycle(
 
     Raises `ParameterError` if there is no cycle, or `Rejected` if it cannot be followed.
     """
-    slips = kind == SLIPPING
-    cycle = find_slipping_cycle(p, tol, guess) if slips else find_cycle(p, tol, guess, releases)
-    may_separate = guess is not None and not slips
+    cycle = find_cycle(p, tol, guess, releases, kind)
+    may_separate = guess is not None
     if cycle.state is None or (cycle.releases > 1 and not may_separate):
         hint = f"start from another value of {name}, or give another guess"
         rule = f"must have a cycle, but the search ended with {cycle.message}; {hint}"
@@ -303,7 +299,7 @@ def first_cycle(
     order = 0
     if may_separate:
         order = cycle.releases
-    section = SlippingMap if slips else None
+    section = SlippingMap if kind == SLIPPING else None
     problem = CycleProblem(p, [name], [parameter_scale(p, name, farthest)], tol, order, section)
     z = problem.place(problem.reference.point(cycle.state))
     return problem, curve_point(*cycle_at_value(problem, z), parameter_row(len(z), 1.0))

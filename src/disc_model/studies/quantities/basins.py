@@ -35,9 +35,8 @@ MOST_ATTRACTORS = 12
 CLASSES = (*WORDS["long_term"][1:], WORDS["long_term"][0])
 """Outcomes of a start."""
 OF_ATTRACTORS = (
-    *("kind", "releases", "period", "growth_rate"),
-    *("segment.range", "segment.separation_rate"),
-    *("segment.stick_fraction", "segment.separation_fraction"),
+    *("kind", "releases", "period", "segment.range"),
+    *("segment.separation_rate", "segment.stick_fraction", "segment.separation_fraction"),
 )
 """What is stored of an attractor, and of a stretch on it."""
 

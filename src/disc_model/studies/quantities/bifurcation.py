@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from xarray import Dataset
 
-from disc_model.analysis.classify import Motion
+from disc_model.analysis.classify import Motion, Settled
 from disc_model.data.variables import Outcome
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Start
@@ -72,7 +72,7 @@ def bifurcation(
     if taken.empty:
         taken, phase = events[events["kind"] == "stick_to_slip"], "stick"
     shown = taken.iloc[-samples:]
-    settled = reached.settling.answer.value
+    settled = reached.answer.value
     values = {
         **{name: shown[name].to_numpy(dtype=float) for name in ("psi", "P", "u")},
         "psi_velocity": case.Omega - shown["f"].to_numpy(dtype=float),
@@ -104,6 +104,6 @@ def _attractor(case: Parameters, reached: Arrival, last: Result, record: Result,
         motion = Motion(reached.near.kind, cycle.separations or cycle.releases)
     else:
         stick = stick_share(last)
-        if reached.settled:
+        if reached.answer is Settled.SETTLED:
             motion = regularity(case, last.final_state, tol)
     return {"kind": motion.kind, "period_events": motion.period, "stick_fraction": stick}

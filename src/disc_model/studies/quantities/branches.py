@@ -102,7 +102,7 @@ def branches(
         swept[way, i] = {
             "sweep_range": late.range,
             "sweep_separation_rate": late.separation_rate,
-            "sweep_settled": reached.settling.answer,
+            "sweep_settled": reached.answer,
         }
         if way == 0 or i < lowest:
             near_start = find_cycle(result.parameters)

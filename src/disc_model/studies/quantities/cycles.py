@@ -98,7 +98,6 @@ def lyapunov_exponents(
         initial_state=state_after(case, start, transient, tol),
         count=EXPONENTS,
         interval=0.05,
-        leave_out_trivial=True,
         tol=tol,
     )
     values = {
@@ -106,9 +105,7 @@ def lyapunov_exponents(
         "exponent": result.exponents,
         "exponent_error": result.errors,
         "converged": np.where(np.isfinite(result.exponents), 1 + result.converged, 0),
-        "trivial_exponent": result.trivial_exponent,
         "averaging_time": result.duration,
-        "separations": result.separations,
     }
     message = ""
     if not result.status.complete:

@@ -74,7 +74,7 @@ def hysteresis(
     for place, result, late, reached in sweep(
         case, "Omega", swept, dwell, max_dwell, evaluation_time, tol
     ):
-        stays[place] = {"sweep_settled": reached.settling.answer, "stay": reached.stay}
+        stays[place] = {"sweep_settled": reached.answer, "stay": reached.stay}
         stays[place]["separation_rate"] = np.nan
         if late is None:
             status = result.status.value

@@ -116,15 +116,16 @@ def _without_releases(run: Result) -> str:
 def _proof(run: Result, lock: Lock) -> Row | None:
     """Columns of the stable cycle that a motion is on; None without one."""
     from disc_model.stability.cycle import multipliers
-    from disc_model.stability.locking import locked_cycle
+    from disc_model.stability.locking import Lock, locked_cycle
 
-    found = locked_cycle(run.parameters, run.final_state, lock)
-    if found is None:
+    cycle = locked_cycle(run.parameters, run.final_state, lock)
+    if cycle is None:
         return None
-    cycle, lock = found
     known = multipliers(cycle.jacobian)
     if not abs(known[0]) < 1:
         return None
+    if cycle.counts.releases < lock.releases:
+        lock = Lock(cycle.counts.releases, cycle.counts.separations, cycle.period)
     real = known[np.abs(known.imag) <= 1e-9 * np.abs(known)].real
     return {
         **_columns_of(lock),

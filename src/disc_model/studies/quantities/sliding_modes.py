@@ -55,13 +55,12 @@ def sliding_modes(
     values = values_between(bounds, step)
     cases = [case.replace(**{name: value}) for value in values]
     followed = follow_modes(cases)
-    n_modes = max(int(numbers.max(initial=-1)) + 1 for _, _, numbers, _ in followed)
+    n_modes = max(int(each.numbers.max(initial=-1)) + 1 for each in followed)
     table = OF_QUANTITIES["sliding_modes"]["columns"]
-    columns = {x: table[x].empty((len(values), n_modes)) for x in ("mac", *OF_MODES)}
+    columns = {x: table[x].empty((len(values), n_modes)) for x in OF_MODES}
     rows = []
     messages = []
-    for i, (sliding, of_value, numbers, mac) in enumerate(followed):
-        columns["mac"][i, numbers] = mac
+    for i, (sliding, of_value, numbers) in enumerate(followed):
         for column, number in OF_MODES.items():
             columns[column][i, numbers] = getattr(of_value, number)
         row = {
