@@ -43,6 +43,8 @@ def test_a_branch_goes_round_its_fold_to_its_bounds(monkeypatch: pytest.MonkeyPa
     for speed, x, growth, above in zip(
         branch.Omega, branch.a, branch.growth_rate, upper, strict=True
     ):
+        if speed > 16 - 1e-6:  # at the fold both cycles are one
+            continue
         assert_allclose(x, cycle_at(speed, 300, above), rtol=0, atol=1e-9)
         assert growth == pytest.approx(growth_at(speed, 300, above), abs=1e-6)
     assert np.all(branch.period == PERIOD)
@@ -51,11 +53,12 @@ def test_a_branch_goes_round_its_fold_to_its_bounds(monkeypatch: pytest.MonkeyPa
     # of the residual, 3e-11 of the deflection, over the slope of the map by the speed, 0.03
     assert_allclose(branch.folds, [fold_at(300)], rtol=0, atol=2e-9)
     table = branch.special_points
-    assert table["label"].tolist() == ["EP", "TR", "LP", "TR", "EP"]
+    kinds = ["end", "neimark_sacker", "fold", "neimark_sacker", "end"]
+    assert table["kind"].tolist() == kinds
     assert_allclose(table["Omega"], [12, 14, 16, 14, 12], rtol=0, atol=1e-8)
     for each in table[1:-1].itertuples():
-        before, after = branch.a[each.after : each.after + 2, 0]
-        assert after < each.state.a[0] < before
+        before, here, after = branch.a[each.point - 1 : each.point + 2, 0]
+        assert after < here == each.state.a[0] < before
     assert table["multiplier"][1] == pytest.approx(np.exp(1.2j), abs=1e-9)
     assert len(pickle.loads(pickle.dumps(branch))) == len(branch)
 
@@ -80,8 +83,8 @@ def test_a_branch_ends_where_it_is_told(
     branch = dm.continue_cycle(P, "Omega", **{"bounds": (12.0, 17.0), **options})
     assert branch.ended == ended
     if ends is None:
-        assert len(branch) == 5
-        assert branch.special_kind[-1] == "max_points"
+        assert branch.kind.tolist().count("") == 5 - 2
+        assert branch.kind[-1] == "max_points"
     else:
         assert_allclose(branch.Omega[[0, -1]], ends, rtol=0, atol=1e-8)
 
@@ -116,7 +119,7 @@ def test_a_jump_of_the_map_ends_the_branch_and_is_not_crossed(
     use(monkeypatch, BrokenMap)
     branch = dm.continue_cycle(P.replace(Omega=14), "Omega", (12.0, 20.0), direction=1)
     assert branch.Omega.max() == branch.Omega[-1] == pytest.approx(16, abs=1e-5)
-    assert branch.ended == branch.special_kind[-1] == "lost"
+    assert branch.ended == branch.kind[-1] == "lost"
 
 
 def test_a_limit_of_the_parameter_ends_the_branch(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -217,7 +220,7 @@ GRAZED = {  # the last cycle, its way on, and the event that appears or vanishes
 def test_a_branch_ends_at_a_grazing(event: str) -> None:
     p, direction = GRAZED[event]
     branch = dm.continue_cycle(p, "Omega", (1, 60), direction=direction)
-    assert branch.ended == branch.special_kind[-1] == "grazing"
+    assert branch.ended == branch.kind[-1] == "grazing"
 
 
 @pytest.fixture(scope="module")
@@ -244,7 +247,7 @@ def test_a_branch_of_twice_the_period_ends_and_begins_at_the_doubling(separating
     start = {"guess": doubling.state, "releases": 2}
     there = case.replace(Omega=doubling.Omega)
     again = dm.continue_cycle(there, "Omega", (14.0, 14.6), **start)
-    assert again.special_kind.tolist() == ["period_doubling", "end"]
+    assert again.special_points["kind"].tolist() == ["period_doubling", "end"]
     assert again.ended == "period_doubling; bound"
     # at its other end it is the branch that came to the doubling
     period = np.interp(14.6, double.Omega, double.period)
@@ -282,24 +285,20 @@ def test_a_branch_is_its_dataset(folded: dm.Branch) -> None:
     data = folded.to_dataset()
     for name in ("growth_rate", "period", "range", "separations", "stable", "a"):
         assert_array_equal(data[name], getattr(folded, name))
-    for i, each in enumerate(folded.special_points.itertuples()):
-        row = data.isel(special=i)
-        assert (each.kind, each.label) == (row["special_kind"], row["special_label"])
-        assert each.u_max == row["special_u_max"]
-        assert each.state.u == row["special_u"]
+    for each in folded.special_points.itertuples():
+        row = data.isel(point=each.point)
+        assert (each.kind, each.u_max, each.state.u) == (row["kind"], row["u_max"], row["u"])
     # stable up to the fold, where the largest multiplier passes 1
-    before = data["point"] <= folded.special_after[1]
-    assert_array_equal(data["stable"], before)
-    assert_array_equal(data["largest_multiplier"] < 1, before)
+    [fold] = np.flatnonzero(folded.kind == "fold")
+    assert_array_equal(data["stable"][:fold], True)
+    assert_array_equal(data["stable"][fold + 1 :], False)
+    assert_array_equal(np.abs(folded.multipliers[:fold]) < 1, True)
+    assert folded.growth_rate[fold] == 0
     assert data.ended == "bound"
-    assert data["special_Omega"].attrs["units"] == "rad s-1"
-    words = {"kind", "label", "phase"}
+    assert data["Omega"].attrs["units"] == "rad s-1"
     for name, variable in data.data_vars.items():
         assert variable.attrs["long_name"]
-        assert ("units" in variable.attrs) == (str(name).removeprefix("special_") not in words)
-    refined = folded.refined("growth_rate")
-    assert len(refined) == len(folded) + 1
-    assert refined[folded.special_after[1] + 1] == 0
+        assert ("units" in variable.attrs) == (name not in ("kind", "phase"))
 
 
 @pytest.mark.compiled
@@ -312,9 +311,9 @@ def test_a_stored_branch_is_a_branch_again(kind: str, folded: dm.Branch, tmp_pat
     dm.save(kept, tmp_path / "branch.nc")
     stored = dm.load(tmp_path / "branch.nc")
     assert stored.identical(kept.to_dataset())
-    again = dm.Branch.from_dataset(stored)
+    again = dm.Branch(stored)
     assert repr(again) == repr(kept)
-    shown = ["kind", "label", "growth_rate", "period", "multiplier", "after", "range"]
+    shown = ["kind", "growth_rate", "period", "multiplier", "point", "range"]
     assert again.special_points[shown].equals(kept.special_points[shown])
     onward = dm.continue_cycle(
         again.case_at(-1), "Omega", (1, 16), guess=again.state(-1), kind=kind
@@ -322,7 +321,7 @@ def test_a_stored_branch_is_a_branch_again(kind: str, folded: dm.Branch, tmp_pat
     place = np.argmin(np.abs(onward.values - again.values[-1]))
     assert onward.period[place] == pytest.approx(again.period[-1], rel=1e-9)
     with refusal(r"must be a dataset of Branch\.to_dataset"):
-        dm.Branch.from_dataset(stored.drop_vars("special_a"))
+        dm.Branch(stored.drop_vars("a"))
 
 
 # ---- What is refused
