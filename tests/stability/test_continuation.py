@@ -37,11 +37,11 @@ def test_a_branch_goes_round_its_fold_to_its_bounds(monkeypatch: pytest.MonkeyPa
     branch = dm.continue_cycle(P, "Omega", (12.0, 17.0))
     assert branch.ended == "bound"
     assert branch.values[[0, -1]].tolist() == [12, 12]
-    upper = branch.a[:, 0] > 1
+    upper = branch.state_a[:, 0] > 1
     assert upper[0]
     assert not upper[-1]
     for speed, x, growth, above in zip(
-        branch.Omega, branch.a, branch.growth_rate, upper, strict=True
+        branch.Omega, branch.state_a, branch.growth_rate, upper, strict=True
     ):
         if speed > 16 - 1e-6:  # at the fold both cycles are one
             continue
@@ -57,7 +57,7 @@ def test_a_branch_goes_round_its_fold_to_its_bounds(monkeypatch: pytest.MonkeyPa
     assert table["kind"].tolist() == kinds
     assert_allclose(table["Omega"], [12, 14, 16, 14, 12], rtol=0, atol=1e-8)
     for each in table[1:-1].itertuples():
-        before, here, after = branch.a[each.point - 1 : each.point + 2, 0]
+        before, here, after = branch.state_a[each.point - 1 : each.point + 2, 0]
         assert after < here == each.state.a[0] < before
     assert table["multiplier"][1] == pytest.approx(np.exp(1.2j), abs=1e-9)
     assert len(pickle.loads(pickle.dumps(branch))) == len(branch)
@@ -94,10 +94,10 @@ def test_a_closed_branch_ends_where_it_began(monkeypatch: pytest.MonkeyPatch) ->
     branch = dm.continue_cycle(dm.Parameters(N=300, Omega=12), "Omega", (5.0, 20.0))
     assert branch.ended == "closed"
     assert_allclose(np.sort(branch.folds), [8, 16], rtol=0, atol=1e-9)
-    assert_array_equal(branch.a[0], branch.a[-1])
+    assert_array_equal(branch.state_a[0], branch.state_a[-1])
     assert branch.special_points["kind"].tolist() == ["fold", "fold"]
     # once round the circle, and no further
-    angle = np.unwrap(np.arctan2((branch.Omega - 12) / 4, branch.a[:, 0] - 2))
+    angle = np.unwrap(np.arctan2((branch.Omega - 12) / 4, branch.state_a[:, 0] - 2))
     assert abs(angle[-1] - angle[0]) == pytest.approx(math.tau, abs=1e-6)
 
 
@@ -110,7 +110,7 @@ def test_a_narrow_peak_between_two_points_is_followed(monkeypatch: pytest.Monkey
         )
         assert_allclose(np.sort(branch.folds), ResonantMap.folds(), rtol=0, atol=1e-8)
         height = ResonantMap.FORCE / (1 - ResonantMap.RHO)
-        assert np.linalg.norm(branch.a, axis=1).max() == pytest.approx(height, rel=0.01)
+        assert np.linalg.norm(branch.state_a, axis=1).max() == pytest.approx(height, rel=0.01)
 
 
 def test_a_jump_of_the_map_ends_the_branch_and_is_not_crossed(
@@ -258,6 +258,17 @@ def test_a_branch_of_twice_the_period_ends_and_begins_at_the_doubling(separating
 
 
 @pytest.mark.compiled
+def test_the_inner_radius_is_a_parameter_as_others() -> None:
+    """It has the name of the coordinates of modes."""
+    case = dm.Parameters(N=385, Omega=14.9)
+    bounds = (case.a, 1.01 * case.a)
+    branch = dm.continue_cycle(case, "a", bounds, direction=1, steps=dm.StepControl(max_points=3))
+    assert branch.values[0] == case.a < branch.values[1]
+    again = dm.floquet(branch.case_at(1), guess=branch.state(1))
+    assert branch.period[1] == pytest.approx(again.period, rel=1e-9)
+
+
+@pytest.mark.compiled
 @pytest.mark.parametrize(("name", "value"), [("contact_arc", 0.1), ("damping_ratio", 1e-4)])
 def test_a_branch_reaches_the_least_value_of_its_parameter(name: str, value: float) -> None:
     """Where a difference of orbits on both sides would need a value below 0."""
@@ -283,11 +294,11 @@ def folded() -> dm.Branch:
 @pytest.mark.compiled
 def test_a_branch_is_its_dataset(folded: dm.Branch) -> None:
     data = folded.to_dataset()
-    for name in ("growth_rate", "period", "range", "separations", "stable", "a"):
+    for name in ("growth_rate", "period", "range", "separations", "stable", "state_a"):
         assert_array_equal(data[name], getattr(folded, name))
     for each in folded.special_points.itertuples():
         row = data.isel(point=each.point)
-        assert (each.kind, each.u_max, each.state.u) == (row["kind"], row["u_max"], row["u"])
+        assert (each.kind, each.u_max, each.state.u) == (row["kind"], row["u_max"], row["state_u"])
     # stable up to the fold, where the largest multiplier passes 1
     [fold] = np.flatnonzero(folded.kind == "fold")
     assert_array_equal(data["stable"][:fold], True)
@@ -298,7 +309,7 @@ def test_a_branch_is_its_dataset(folded: dm.Branch) -> None:
     assert data["Omega"].attrs["units"] == "rad s-1"
     for name, variable in data.data_vars.items():
         assert variable.attrs["long_name"]
-        assert ("units" in variable.attrs) == (name not in ("kind", "phase"))
+        assert ("units" in variable.attrs) == (name not in ("kind", "state_phase"))
 
 
 @pytest.mark.compiled
@@ -321,7 +332,7 @@ def test_a_stored_branch_is_a_branch_again(kind: str, folded: dm.Branch, tmp_pat
     place = np.argmin(np.abs(onward.values - again.values[-1]))
     assert onward.period[place] == pytest.approx(again.period[-1], rel=1e-9)
     with refusal(r"must be a dataset of Branch\.to_dataset"):
-        dm.Branch(stored.drop_vars("a"))
+        dm.Branch(stored.drop_vars("state_beta"))
 
 
 # ---- What is refused

@@ -244,9 +244,8 @@ class NeutralCurves:
         return len(self.curves)
 
     def __repr__(self) -> str:
-        ranges = [f"{name} from {low:g} to {high:g}" for name, (low, high) in self.bounds.items()]
-        plane = " and ".join(ranges)
-        return f"NeutralCurves({counted(len(self), 'curve')} over {plane}, {len(self.failures)} not followed)"
+        found = f"{counted(len(self), 'curve')} over {' and '.join(self.bounds)}"
+        return f"NeutralCurves({found}, {len(self.failures)} not followed)"
 
     def plot(self, ax: Any = None, **look: Any) -> Any:
         """Draw the curves with their resonances, thick beside a stable cycle and dashed where cycles end
@@ -404,13 +403,13 @@ class _CurveSearch:
         place of the plane."""
         span = np.diff(list(self.plane.values()))[:, 0]
         for curve in self.curves:
-            if curve.kind == kind:
-                away = np.column_stack([(curve.values - place) / span, curve.period / period - 1])
-                numbers = np.arange(len(away))
-                between = np.linspace(0, numbers[-1], BETWEEN * len(numbers))
-                x, y, relative = make_interp_spline(numbers, away, k=1)(between).T
-                if np.any((np.hypot(x, y) < SAME_PLACE) & (np.abs(relative) < SAME_PERIOD)):
-                    return True
+            aside = (curve.values - place) / span / SAME_PLACE
+            away = np.column_stack([aside, (curve.period / period - 1) / SAME_PERIOD])
+            numbers = np.arange(len(away))
+            between = np.linspace(0, numbers[-1], BETWEEN * len(numbers))
+            distances = np.linalg.norm(make_interp_spline(numbers, away, k=1)(between), axis=1)
+            if curve.kind == kind and distances.min() < 1:
+                return True
         return False
 
 

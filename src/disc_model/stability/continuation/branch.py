@@ -52,7 +52,8 @@ SHOWN_ENDS = (GRAZING, HOPF, PERIOD_DOUBLING, MOST_POINTS, LOST)
 NEUTRAL = 1e-6  # logarithm of a multiplier's modulus that counts as 0 at a special point
 SAME_VALUE = 1e-12  # relative difference of two values of a parameter that is rounding
 STATE = ("psi", "f", "u", "u_velocity", "phase", "direction", *COORDINATES)
-"""Values of a cycle's state on the section, at time 0."""
+"""Values of a cycle's state on the section, at time 0: variables with the beginning "state_", because a
+parameter may have one of these names."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -86,7 +87,7 @@ class Branch:
     data: xr.Dataset
 
     def __post_init__(self) -> None:
-        known = isinstance(self.data, xr.Dataset) and {*STATE, "kind"} <= {*self.data}
+        known = isinstance(self.data, xr.Dataset) and {"kind", "state_beta"} <= {*self.data}
         rule = "must be a dataset of Branch.to_dataset, whole and unchanged"
         require((known, "data", type(self.data).__name__, rule))
 
@@ -163,7 +164,9 @@ class Branch:
         2   end  14.800000
         """
         special = self.data.drop_dims(["mode", "multiplier"]).isel(point=self.kind != "")
-        table = special.drop_vars([name for name in STATE if name in special]).to_dataframe()
+        table = special.drop_vars(
+            [x for x in special if str(x).startswith("state_")]
+        ).to_dataframe()
         multiplier = table.pop("critical_real") + 1j * table.pop("critical_imag")
         points = np.flatnonzero(self.kind).tolist()
         states: Any = [self.state(i) for i in points]
@@ -177,8 +180,8 @@ class Branch:
         Along `point`: the parameter by its name, `growth_rate` (1/s), `period` (s),
         `stick_fraction`, `range`, `u_min` and `u_max` (m), `stable`, `separations`, `releases`,
         `diameters`, `multipliers_real` and `multipliers_imag`, and the cycle's state on the section:
-        `psi`, `f`, `u`, `u_velocity`, `phase`, `direction` and, along `mode`, `a`, `b`, `alpha`,
-        `beta`. The `kind` of special points, else "", and their critical multiplier, `critical_real`
+        `state_psi` and so on and, along `mode`, `state_a`, `state_b`, `state_alpha`, `state_beta`. The
+        `kind` of special points, else "", and their critical multiplier, `critical_real`
         and `critical_imag`. Attributes: `ended`, and the case's `parameters` in JSON.
 
         Examples
@@ -213,7 +216,8 @@ class Branch:
         >>> float(abs(run.final_state.u / branch.state(-1).u - 1)) < 1e-10
         True
         """
-        return State(time=0.0, **{name: self.data[name].values[i].tolist() for name in STATE})
+        values = {name: self.data[f"state_{name}"].values[i].tolist() for name in STATE}
+        return State(time=0.0, **values)
 
     def plot(
         self,
@@ -269,7 +273,7 @@ def row_of(problem: CycleProblem, point: CurvePoint) -> dict[str, Any]:
         "separations": point.orbit.counts.separations,
         "releases": point.orbit.counts.releases,
         "diameters": problem.leading_diameters(point),
-        **{name: getattr(state, name) for name in STATE},
+        **{f"state_{name}": getattr(state, name) for name in STATE},
     }
 
 
@@ -283,13 +287,11 @@ def branch_of(problem: CycleProblem, course: Course, exact: Sequence[float] = ()
             if not entries[i].kind:
                 kind = end if end in SHOWN_ENDS else "end"
                 entries[i] = entries[i]._replace(kind=kind, multiplier=entries[i].point.leading)
-    columns = {x: np.array([entry.kept[x] for entry in entries]) for x in entries[0].kept}
-    critical = np.array([entry.multiplier for entry in entries])
-    columns |= {
-        "kind": np.array([entry.kind for entry in entries]),
-        "critical_real": critical.real,
-        "critical_imag": critical.imag,
-    }
+    rows = []
+    for entry in entries:
+        critical = {"critical_real": entry.multiplier.real, "critical_imag": entry.multiplier.imag}
+        rows.append({**entry.kept, "kind": entry.kind, **critical})
+    columns = {x: np.array([row[x] for row in rows]) for x in rows[0]}
     [name] = problem.names
     for value in exact:
         columns[name][np.isclose(columns[name], value, rtol=SAME_VALUE, atol=0)] = value
@@ -300,8 +302,9 @@ def branch_of(problem: CycleProblem, course: Course, exact: Sequence[float] = ()
     known = OF_RESULTS["Branch"]
     variables = {}
     for x, column in columns.items():
-        dims = ("point", "mode" if x in COORDINATES else "multiplier")
-        attrs = known[x].attributes if x in known else attributes(x)
+        own = x.removeprefix("state_")
+        dims = ("point", "mode" if own in COORDINATES else "multiplier")
+        attrs = attributes(name) if x == name else known[own].attributes
         variables[x] = xr.Variable(dims[: column.ndim], column, attrs)
     attrs = {
         "ended": "; ".join(dict.fromkeys(filter(None, (course.first, course.last)))),

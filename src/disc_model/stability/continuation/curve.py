@@ -1,8 +1,8 @@
-"""Pseudo-arclength: points of a curve F(z) = 0 by prediction and correction, the test that a step
+"""Pseudo-arclength: steps along a curve F(z) = 0, the test that a step
 stays on it, and the multipliers of its cycles, followed from point to point.
 
 F has one row less than z has entries.  A step predicts on the cubic through the former point, and
-corrects within a plane; `check_step` then compares both points as those of a smooth curve.  The
+a corrector goes on within a plane; `check_step` then compares both points as those of a smooth curve.  The
 sign of det [F'; tangent] is constant along a curve of regular points: a corrector that has come to
 another part of the curve often shows the other one.
 
@@ -15,28 +15,23 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Annotated, NamedTuple, Protocol
+from typing import Annotated, NamedTuple
 
 import numpy as np
 from pydantic import Field
+from scipy.interpolate import CubicHermiteSpline
 from scipy.optimize import linear_sum_assignment
 
 from disc_model.arrays import Array, ComplexArray, Indices
 from disc_model.errors import DiscModelError
-from disc_model.stability.return_map import Orbit, newton_step, rounding
+from disc_model.stability.return_map import Orbit
 from disc_model.units import Count, Positive, Strict
 
-MOST_CORRECTIONS = 14  # of Newton's method with Broyden's updates, which takes 3 to 5
-SLOW = 0.3  # a correction that leaves more of the residual needs the derivative at its own point
-GOAL = 5  # residual of a point, over the tolerance of the map
 # A step is taken along one smooth curve if, relative to its length, the corrector moves by no more
 # than DRIFT, and the chord differs from the mean tangent by no more than DEFECT: for an arc that
 # turns by an angle t they are t^2 / 4 and t^2 / 12 at most, a sixteenth and a fiftieth for 30 deg.
 DRIFT = 0.25
 DEFECT = 0.02
-# the last correction of a point whose residual is limited by rounding; a residual that is as small
-# but no zero, as beside a narrow fold, leads to corrections a hundred times as large
-UNCERTAIN = 1e-7
 MOST_POINTS = "max_points"  # why a curve ends that has as many points as it may
 SAME = 0.01  # distance of a curve from a point through which it passes, over the step
 FARTHEST_PREDICTION = 2  # length of a step that is predicted from the former one, over that
@@ -93,21 +88,6 @@ class Evaluation(NamedTuple):
     turning: ComplexArray = np.zeros(0, complex)
 
 
-class Problem(Protocol):
-    """F, whose zeros form the curve, to a relative tolerance `tol`. Both methods raise `Rejected` where
-    F has no value."""
-
-    tol: float
-
-    def residual(self, z: Array) -> Array:
-        """F at z, which costs little."""
-        ...
-
-    def evaluate(self, z: Array) -> Evaluation:
-        """F at z, with its derivatives."""
-        ...
-
-
 @dataclass(frozen=True, eq=False)
 class CurvePoint:
     """A point z of a curve, with what is known of F there, the unit tangent, and the sign of
@@ -146,50 +126,6 @@ class CurvePoint:
         return replace(self, tangent=-self.tangent, orientation=-self.orientation)
 
 
-def solve(
-    problem: Problem, guess: Array, along: Array, by: Array, radius: float = np.inf
-) -> CurvePoint:
-    """The point of a curve in the plane through `guess` normal to the unit vector `along`, by Newton's
-    method.
-
-    It starts with the derivative `by` of F at a point nearby, and improves it by Broyden's updates,
-    because F costs a tenth of its derivatives. The tangent makes an acute angle with the vector.
-    Raises `Rejected` if the iteration leaves a `radius` round the guess, or does not converge.
-    """
-    z = guess
-    matrix = np.vstack([by, along])
-    step: Array | None = None
-    last = np.inf
-    for _ in range(MOST_CORRECTIONS):
-        right = np.append(problem.residual(z), along @ (z - guess))
-        error = float(np.linalg.norm(right))
-        if error <= GOAL * problem.tol:
-            break
-
-        if step is not None and error > SLOW * last:
-            if np.linalg.norm(step) <= UNCERTAIN and error <= rounding(problem.tol, 1e4):
-                break
-            matrix = np.vstack([problem.evaluate(z).by, along])
-        elif step is not None:
-            matrix = matrix + np.outer(right, step) / (step @ step)
-
-        last = error
-        step = -newton_step(matrix, right)
-        z = z + step
-        if not np.linalg.norm(z - guess) <= radius:
-            raise Rejected("the corrector moves too far")
-    else:
-        raise Rejected("Newton's method does not converge")
-
-    # one more correction, now with the derivatives at this point, which are needed anyhow
-    found = problem.evaluate(z)
-    matrix = np.vstack([found.by, along])
-    z = z - newton_step(matrix, np.append(found.residual, along @ (z - guess)))
-    if not np.linalg.norm(z - guess) <= radius:  # as where two branches cross
-        raise Rejected("the corrector moves too far")
-    return curve_point(z, found, along)
-
-
 def curve_point(z: Array, found: Evaluation, along: Array) -> CurvePoint:
     """A point of a curve with the tangent that makes an acute angle with the vector `along`."""
     matrix = np.vstack([found.by, along])
@@ -204,26 +140,25 @@ def curve_point(z: Array, found: Evaluation, along: Array) -> CurvePoint:
     return CurvePoint(z, found, tangent, float(sign))
 
 
-def predict(points: Sequence[CurvePoint], ds: float) -> Array:
-    """The point expected at arclength ds beyond the last of some: on the cubic through it and the one
-    before, or along the tangent if that is much nearer, because little is known of a long way from a
-    short one."""
+def predict(points: Sequence[CurvePoint], ds: float) -> tuple[Array, Array]:
+    """The point expected at arclength ds beyond the last of some, and F' there: on the cubic through it
+    and the one before, or along the tangent if that is much nearer, because little is known of a long way
+    from a short one."""
     current = points[-1]
     if len(points) > 1:
         length = float(np.linalg.norm(current.z - points[-2].z))
         if ds <= FARTHEST_PREDICTION * length:
             return interpolate(points[-2], current, 1 + ds / length)
-    return current.z + ds * current.tangent
+    return current.z + ds * current.tangent, current.found.by
 
 
-def interpolate(before: CurvePoint, after: CurvePoint, share: float) -> Array:
-    """The point at a share of the way between two, on the cubic with both tangents; beyond the
-    second for a share above one."""
+def interpolate(before: CurvePoint, after: CurvePoint, share: float) -> tuple[Array, Array]:
+    """The point at a share of the way between two, on the cubic with both tangents, and F' there; beyond
+    the second for a share above one."""
     length = float(np.linalg.norm(after.z - before.z))
-    rest = 1 - share
-    ends = rest**2 * (1 + 2 * share) * before.z + share**2 * (1 + 2 * rest) * after.z
-    bend = share * rest * (rest * before.tangent - share * after.tangent)
-    return ends + length * bend
+    slopes = [length * before.tangent, length * after.tangent]
+    cubic = CubicHermiteSpline([0.0, 1.0], [before.z, after.z], slopes)
+    return cubic(share), (1 - share) * before.found.by + share * after.found.by
 
 
 def check_step(
@@ -251,8 +186,8 @@ def passes(before: CurvePoint, after: CurvePoint, known: CurvePoint) -> bool:
     share = float((known.z - before.z) @ chord) / length**2
     if not 0 < share <= 1 or known.tangent @ chord < 0:
         return False
-    apart = interpolate(before, after, share) - known.z
-    return bool(np.linalg.norm(apart) <= SAME * length)
+    there, _ = interpolate(before, after, share)
+    return bool(np.linalg.norm(there - known.z) <= SAME * length)
 
 
 def follow_curve(

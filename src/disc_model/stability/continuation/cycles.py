@@ -42,12 +42,24 @@ from disc_model.stability.continuation.curve import (
     interpolate,
     passes,
     predict,
-    solve,
 )
 from disc_model.stability.cycle import SLIPPING, bifurcation_type, find_cycle
-from disc_model.stability.return_map import ENDS, PARAMETERS, Orbit, ReturnMap
+from disc_model.stability.return_map import (
+    ENDS,
+    PARAMETERS,
+    Orbit,
+    ReturnMap,
+    newton_step,
+    rounding,
+)
 from disc_model.stability.slipping import SlippingMap, find_slipping_cycle
 
+MOST_CORRECTIONS = 14  # of Newton's method with Broyden's updates, which takes 3 to 5
+SLOW = 0.3  # a correction that leaves more of the residual needs the derivative at its own point
+GOAL = 30  # residual of a point, over the tolerance of the map
+# the last correction of a point whose residual is limited by rounding; a residual that is as small
+# but no zero, as beside a narrow fold, leads to corrections a hundred times as large
+UNCERTAIN = 1e-7
 SMALLEST_OF_SPAN = 0.1  # of a parameter's scale, over the largest value within its bounds
 DIFFERENCE = 1e-6  # over a parameter's scale: orbits are accurate to 1e-13, their second derivatives of order one
 MAPS_AT_HAND = 8  # points between two others are computed before these are kept
@@ -206,6 +218,56 @@ class CycleProblem:
                 continue
         raise Rejected("there is no orbit beside it")
 
+    def solve(self, guess: Array, by: Array, along: Array, radius: float = np.inf) -> CurvePoint:
+        """The point of the curve in the plane through `guess` normal to the unit vector `along`, by Newton's
+        method.
+
+        It starts with the derivative `by` of F at a point nearby, and improves it by Broyden's updates,
+        because F costs a tenth of its derivatives. The tangent makes an acute angle with the vector.
+        Raises `Rejected` if the iteration leaves a `radius` round the guess, or does not converge.
+        """
+        z = guess
+        matrix = np.vstack([by, along])
+        step: Array | None = None
+        last = np.inf
+        fresh = False  # whether the matrix is that at the former iterate
+        for _ in range(MOST_CORRECTIONS):
+            right = np.append(self.residual(z), along @ (z - guess))
+            error = float(np.linalg.norm(right))
+            if error <= GOAL * self.tol:
+                break
+
+            if step is not None and error > SLOW * last:
+                small = np.linalg.norm(step) <= UNCERTAIN
+                if fresh and small and error <= rounding(self.tol, 1e4):
+                    break
+                matrix = np.vstack([self.evaluate(z).by, along])
+                fresh = True
+            elif step is not None:
+                matrix = matrix + np.outer(right, step) / (step @ step)
+                fresh = False
+
+            last = error
+            step = -newton_step(matrix, right)
+            z = z + step
+            if not np.linalg.norm(z - guess) <= radius:
+                raise Rejected("the corrector moves too far")
+        else:
+            raise Rejected("Newton's method does not converge")
+
+        # one more correction, now with the derivatives at this point, which are needed anyhow
+        found = self.evaluate(z)
+        matrix = np.vstack([found.by, along])
+        z = z - newton_step(matrix, np.append(found.residual, along @ (z - guess)))
+        if not np.linalg.norm(z - guess) <= radius:  # as where two branches cross
+            raise Rejected("the corrector moves too far")
+        return curve_point(z, found, along)
+
+    def cycle_near(self, z: Array) -> CurvePoint:
+        """The cycle near a point, at its value of the one free parameter; raises `Rejected` if there is
+        none."""
+        return self.solve(z, self.evaluate(z).by, parameter_row(len(z), 1.0))
+
     def place(self, x: Array) -> Array:
         """z of a point of the section of the case `base`."""
         values = np.array([self.base.numbers[name] for name in self.names])
@@ -253,13 +315,7 @@ def first_cycle(
     order = cycle.releases if may_separate else 0
     problem = CycleProblem(p, {name: bounds}, tol, order, kind)
     z = problem.place(problem.reference.point(cycle.state))
-    return problem, cycle_at_value(problem, z)
-
-
-def cycle_at_value(problem: CycleProblem, z: Array) -> CurvePoint:
-    """The cycle near a point, at its value of the one free parameter; raises `Rejected` if there is
-    none."""
-    return solve(problem, z, parameter_row(len(z), 1.0), problem.evaluate(z).by)
+    return problem, problem.cycle_near(z)
 
 
 def parameter_row(width: int, sense: float) -> Array:
@@ -322,6 +378,8 @@ class Tracer:
         if first == CLOSED:
             return Course(back, "", first)
         entries, last = self._one_way(start)
+        if entries[0].kind:  # a special point at which it starts
+            back[0] = entries[0]
         return Course([*reversed(back), *entries[1:]], first, last)
 
     def _entry(self, point: CurvePoint, kind: str = "", multiplier: complex = 0j) -> Entry:
@@ -386,16 +444,16 @@ class Tracer:
         """The points of a step of arclength ds beyond the last of some, resonances within it
         included; raises `Rejected` if a shorter step is needed."""
         current = points[-1]
-        guess = predict(points, ds)
+        guess, by = predict(points, ds)
         row = _plane(current.tangent)
         value = float(guess[-1])
         bound = min(max(value, self.low), self.high)
         if bound != value:
             ds *= (bound - current.value) / (value - current.value)
-            guess = predict(points, ds)
+            guess, by = predict(points, ds)
             guess[-1] = bound
             row = parameter_row(len(row), current.slope)
-        ahead = solve(self.problem, guess, row, current.found.by, FARTHEST * ds)
+        ahead = self.problem.solve(guess, by, row, FARTHEST * ds)
         if ds > CORNER and np.linalg.norm(ahead.z - guess) > DRIFT * ds:
             raise Rejected("the corrector moves far")
         _check(current, ahead)
@@ -410,10 +468,9 @@ class Tracer:
         if deepest == 0 or not hidden:
             return []
         share, _ = hidden[0]
-        expected = interpolate(before, after, share)
+        expected, by = interpolate(before, after, share)
         length = float(np.linalg.norm(after.z - before.z))
-        row = _plane(before.tangent)
-        there = solve(self.problem, expected, row, before.found.by, FARTHEST * length)
+        there = self.problem.solve(expected, by, _plane(before.tangent), FARTHEST * length)
         if np.linalg.norm(there.z - expected) > max(PEAK * length, SMALLEST_PEAK):
             raise Rejected("the branch has a peak within the step")
         _check(before, there)
@@ -449,8 +506,8 @@ class Tracer:
         chord = after.z - before.z
         length = float(np.linalg.norm(chord))
         row = _plane(chord / length, before.tangent, after.tangent)
-        guess = interpolate(before, after, share)
-        return solve(self.problem, guess, row, before.found.by, max(FARTHEST * length, 1e-6))
+        guess, by = interpolate(before, after, share)
+        return self.problem.solve(guess, by, row, max(FARTHEST * length, 1e-6))
 
 
 def follow_between(
@@ -583,13 +640,11 @@ def _excess(start: CurvePoint, i: int, point: CurvePoint) -> float:
 def comes_to_doubling(problem: CycleProblem, before: CurvePoint, after: CurvePoint) -> bool:
     """Whether a branch of cycles of an even number of releases comes to a period doubling at the
     second of two neighbours: both are the same cycles, half a period apart, or the second one hardly
-    differs from itself half a period later."""
+    differs from itself half a period later; raises `Rejected` if a half does not return."""
     if problem.half is None:
         return False
-    try:
-        first, second = (problem.half.residual(each.z) for each in (before, after))
-    except Rejected:
-        return False
+    first = problem.half.residual(before.z)
+    second = problem.half.residual(after.z)
     nearly = np.linalg.norm(second) < min(SAME_HALVES, float(np.linalg.norm(first)))
     return float(first @ second) < 0 or bool(nearly)
 
@@ -607,7 +662,7 @@ def doublings_beside(problem: CycleProblem, near: CurvePoint) -> list[CurvePoint
     tracer = Tracer(half, StepControl())
     tracer.low = near.value - FARTHEST_DOUBLING
     tracer.high = near.value + FARTHEST_DOUBLING
-    course = tracer.follow(cycle_at_value(half, z))
+    course = tracer.follow(half.cycle_near(z))
     found = [each.point.z for each in course.entries if each.kind == PERIOD_DOUBLING]
     return [curve_point(z, problem.evaluate(z), near.tangent) for z in found]
 
@@ -619,7 +674,7 @@ def leave_doubling(problem: CycleProblem, half: CycleProblem, start: CurvePoint)
     Raises `ParameterError` if the start is not at a doubling, or no longer cycle is found.
     """
     # at a doubling the longer cycle is a double solution, which its search misses by some 1e-4
-    shorter = cycle_at_value(half, start.z)
+    shorter = half.cycle_near(start.z)
     critical = int(np.argmin(np.abs(shorter.spectrum.values + 1)))
     if abs(shorter.spectrum.values[critical] + 1) > NEAR_DOUBLING:
         rule = f"must be {half.releases}: the cycle at this state repeats after half as many"
@@ -630,6 +685,6 @@ def leave_doubling(problem: CycleProblem, half: CycleProblem, start: CurvePoint)
     away /= np.linalg.norm(away)
     guess = shorter.z + DEPARTURE * away
     try:
-        return solve(problem, guess, away, problem.evaluate(guess).by, DEPARTURE)
+        return problem.solve(guess, problem.evaluate(guess).by, away, DEPARTURE)
     except Rejected:
         raise ParameterError("no cycle of twice the period is near the doubling") from None
