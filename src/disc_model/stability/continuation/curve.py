@@ -275,8 +275,9 @@ def hidden_resonances(before: Spectrum, after: Spectrum) -> list[tuple[float, bo
     # each with itself and others, and each with the conjugates of others
     same = np.triu_indices(both.shape[1])
     other = np.triu_indices(both.shape[1], 1)
-    products = [both[:, same[0]] * both[:, same[1]], both[:, other[0]] * both[:, other[1]].conj()]
-    start, end = np.hstack(products)
+    sums = both[:, same[0]] * both[:, same[1]]
+    differences = both[:, other[0]] * both[:, other[1]].conj()
+    start, end = np.hstack([sums, differences])
     angles = np.angle(start)
     turns = np.angle(end / start)
     distances = np.abs([angles, angles + turns])

@@ -21,7 +21,7 @@ from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
-from scipy.optimize import brentq
+from scipy.optimize import brentq, root_scalar
 
 from disc_model.arrays import Array
 from disc_model.errors import Fault, ModeError, ParameterError
@@ -95,7 +95,11 @@ STEEPEST = 1e4  # leading multiplier beside a grazing release, towards which it 
 # as one of half the period: at a doubling, Newton's method comes to a double zero
 SAME_HALVES = 1e-3
 NEAR_DOUBLING = 0.02  # distance from -1 of the multiplier from which a branch is sought there
-FARTHEST_DOUBLING = 0.05  # from the cycle beside which it is sought, over the parameter's scale
+# the first change of the parameter in the search for a doubling, and the last one, over its scale; how
+# far a doubling may be from the cycle beside which it is sought
+BESIDE = 1e-6
+ROUNDING = 1e-12
+FARTHEST_DOUBLING = 0.2
 DEPARTURE = 1e-3  # distance of a branch's first cycle from the doubling, over the deflection
 
 
@@ -412,7 +416,7 @@ class Tracer:
             end = CLOSED
         try:
             if comes_to_doubling(self.problem, before, new):
-                entries += map(self._entry, doublings_beside(self.problem, before))
+                entries.append(self._entry(locate_doubling(self.problem, before)))
                 return PERIOD_DOUBLING
             found = special_between(self, before, new)
         except Rejected:
@@ -649,9 +653,9 @@ def comes_to_doubling(problem: CycleProblem, before: CurvePoint, after: CurvePoi
     return float(first @ second) < 0 or bool(nearly)
 
 
-def doublings_beside(problem: CycleProblem, near: CurvePoint) -> list[CurvePoint]:
-    """The period doublings beside a cycle of twice the period, on the branch of half the releases; raises
-    `Rejected` if there is none.
+def locate_doubling(problem: CycleProblem, near: CurvePoint) -> CurvePoint:
+    """The period doubling beside a cycle of twice the period, where that of half the releases has the
+    multiplier -1; raises `Rejected` if it is not found.
 
     The shorter cycle is regular there, while F of the longer one has a double zero.
     """
@@ -659,12 +663,26 @@ def doublings_beside(problem: CycleProblem, near: CurvePoint) -> list[CurvePoint
     assert half is not None
     z = near.z.copy()
     z[: problem.n] += half.residual(near.z) / 2
-    tracer = Tracer(half, StepControl())
-    tracer.low = near.value - FARTHEST_DOUBLING
-    tracer.high = near.value + FARTHEST_DOUBLING
-    course = tracer.follow(half.cycle_near(z))
-    found = [each.point.z for each in course.entries if each.kind == PERIOD_DOUBLING]
-    return [curve_point(z, problem.evaluate(z), near.tangent) for z in found]
+
+    def excess(value: float) -> float:
+        """By how much the critical multiplier exceeds -1 at a scaled value of the parameter; `z` is
+        then the shorter cycle there."""
+        nonlocal z
+        z[-1] = value
+        shorter = half.cycle_near(z)
+        z = shorter.z
+        return float(shorter.spectrum.values[nearest_to_doubling(shorter)].real) + 1
+
+    found = root_scalar(excess, x0=near.value, x1=near.value + BESIDE, xtol=ROUNDING)
+    excess(found.root)
+    if not found.converged or np.linalg.norm(z - near.z) > FARTHEST_DOUBLING:
+        raise Rejected("the period doubling cannot be located")
+    return curve_point(z, problem.evaluate(z), near.tangent)
+
+
+def nearest_to_doubling(point: CurvePoint) -> int:
+    """The number of the multiplier that is nearest to -1."""
+    return int(np.argmin(np.abs(point.spectrum.values + 1)))
 
 
 def leave_doubling(problem: CycleProblem, half: CycleProblem, start: CurvePoint) -> CurvePoint:
@@ -675,7 +693,7 @@ def leave_doubling(problem: CycleProblem, half: CycleProblem, start: CurvePoint)
     """
     # at a doubling the longer cycle is a double solution, which its search misses by some 1e-4
     shorter = half.cycle_near(start.z)
-    critical = int(np.argmin(np.abs(shorter.spectrum.values + 1)))
+    critical = nearest_to_doubling(shorter)
     if abs(shorter.spectrum.values[critical] + 1) > NEAR_DOUBLING:
         rule = f"must be {half.releases}: the cycle at this state repeats after half as many"
         raise ParameterError(Fault(("releases",), str(problem.releases), rule))
