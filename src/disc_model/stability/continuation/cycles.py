@@ -72,7 +72,7 @@ SMALLEST_PEAK = 1e-5  # the same, over the static deflection
 CORNER = 1e-5
 PRECISION = 1e-9  # of the share of a step at which a point is located: what remains is its square
 MOST_BETWEEN = 500  # points of a branch from one value to another
-STEEP = 0.1  # slope of the tangent above which a step ends at a given parameter, so that one map serves it
+STEEP = 0.05  # slope of the tangent above which a step ends at a given parameter, so that one map serves it
 AT_BOUND = 1e-11  # distance from a bound that is rounding, over the parameter's scale
 
 FOLD = "fold"
@@ -373,7 +373,7 @@ class Tracer:
         half = self.problem.half
         if half is not None and np.linalg.norm(half.residual(start.z)) <= SAME_HALVES:
             entries, last = self._one_way(leave_doubling(self.problem, half, start))
-            doubling = self._entry(start, PERIOD_DOUBLING, 1.0 + 0j)
+            doubling = self._kept(Entry(start, PERIOD_DOUBLING, 1.0 + 0j))
             return Course([doubling, *entries], PERIOD_DOUBLING, last)
         if direction:
             entries, last = self._one_way(start if direction > 0 else start.reversed())
@@ -386,12 +386,12 @@ class Tracer:
             back[0] = entries[0]
         return Course([*reversed(back), *entries[1:]], first, last)
 
-    def _entry(self, point: CurvePoint, kind: str = "", multiplier: complex = 0j) -> Entry:
-        return Entry(point, kind, multiplier, self.keep(point))
+    def _kept(self, entry: Entry) -> Entry:
+        return entry._replace(kept=self.keep(entry.point))
 
     def _one_way(self, start: CurvePoint) -> tuple[list[Entry], str]:
         """The branch from a point along its tangent, and why it ends."""
-        entries = [self._entry(start)]
+        entries = [self._kept(Entry(start))]
         end = self._bound_at(start)
         if not end:
             watch = partial(self._take, entries)
@@ -416,23 +416,23 @@ class Tracer:
             end = CLOSED
         try:
             if comes_to_doubling(self.problem, before, new):
-                entries.append(self._entry(locate_doubling(self.problem, before)))
+                entries.append(self._kept(Entry(locate_doubling(self.problem, before))))
                 return PERIOD_DOUBLING
             found = special_between(self, before, new)
         except Rejected:
             return LOST
-        for point, kind, multiplier in found:
-            bound = min(max(point.value, self.low), self.high)
-            if kind == FOLD and point.value != bound:
-                at_bound = self.locate(before, point, partial(_excess_over, bound))
+        for each in found:
+            bound = min(max(each.point.value, self.low), self.high)
+            if each.kind == FOLD and each.point.value != bound:
+                at_bound = self.locate(before, each.point, partial(_excess_over, bound))
                 if at_bound is not None:
-                    entries.append(self._entry(at_bound))
+                    entries.append(self._kept(Entry(at_bound)))
                 return BOUND
-            if point is before:
-                entries[-1] = entries[-1]._replace(kind=kind, multiplier=multiplier)
+            if each.point is before:
+                entries[-1] = each._replace(kept=entries[-1].kept)
             else:
-                entries.append(self._entry(point, kind, multiplier))
-        entries.append(self._entry(new))
+                entries.append(self._kept(each))
+        entries.append(self._kept(Entry(new)))
         return end
 
     def _bound_at(self, point: CurvePoint) -> str:
@@ -575,25 +575,21 @@ def _loss(problem: CycleProblem, last: CurvePoint, rejected: Rejected) -> str:
 # ---- Special points: a test function changes sign between two points, and its root is located
 
 
-Special = tuple[CurvePoint, str, complex]
-"""A special point of a kind, with its critical multiplier."""
-
-
-def special_between(tracer: Tracer, before: CurvePoint, after: CurvePoint) -> list[Special]:
+def special_between(tracer: Tracer, before: CurvePoint, after: CurvePoint) -> list[Entry]:
     """The special points between two neighbours of a branch, in their order; raises `Rejected` if a
     fold between them cannot be computed."""
     if after.orbit.counts != before.orbit.counts:
-        return [(before, GRAZING, before.leading)]
-    found: list[Special] = []
+        return [Entry(before, GRAZING, before.leading)]
+    found = []
     knots = [before, after]
     if before.slope * after.slope < 0:
         fold = tracer.locate(before, after, lambda point: point.slope)
         if fold is None:
             raise Rejected("a fold cannot be located")
         knots.insert(1, fold)
-        found.append((fold, FOLD, 1.0 + 0j))
+        found.append(Entry(fold, FOLD, 1.0 + 0j))
     elif before.orientation != after.orientation:
-        found.append((before, BRANCH_POINT, 1.0 + 0j))
+        found.append(Entry(before, BRANCH_POINT, 1.0 + 0j))
 
     located = [(PERIOD_DOUBLING, tracer.locate(before, after, _doubling_test))]
     # a pair that crosses the circle before a fold often is two real multipliers at the fold
@@ -605,8 +601,8 @@ def special_between(tracer: Tracer, before: CurvePoint, after: CurvePoint) -> li
             values = point.spectrum.values
             critical = complex(values[np.argmin(np.abs(np.abs(values) - 1))])
             if bifurcation_type(critical) == kind and abs(abs(critical) - 1) < ON_CIRCLE:
-                found.append((point, kind, complex(critical.real, abs(critical.imag))))
-    return sorted(found, key=lambda each: float((each[0].z - before.z) @ before.tangent))
+                found.append(Entry(point, kind, complex(critical.real, abs(critical.imag))))
+    return sorted(found, key=lambda each: float((each.point.z - before.z) @ before.tangent))
 
 
 def _doubling_test(point: CurvePoint) -> float:
