@@ -130,7 +130,7 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
             "progress": "True",
         },
     ),
-    (dm.StepControl, {}, {"max_points": "huge", "beyond": "True"}),
+    (dm.StepControl, {}, {"max_points": "huge", "step": "True"}),
     (dm.critical, {"case": P, "name": "N", "bounds": (1, 2), "points": 2}, {"progress": "True"}),
     (dm.neutral_curves, PLANE, {"max_points": "huge", "lines": "nothing"}),
     (dm.lyapunov_exponents, {"case": P, "duration": 0.1}, {"initial_state": "None"}),

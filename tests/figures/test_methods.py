@@ -240,10 +240,9 @@ def neutral() -> Picture:
 
 
 def periods() -> Picture:
-    fold = branch().special_points.loc[1]
     shown = (
-        Shown(0, "x", SPEED, [*branch().values, fold.Omega], "rad/s"),
-        Shown(0, "y", "Period of the cycle", [*branch().period, fold.period], "s"),
+        Shown(0, "x", SPEED, branch().values, "rad/s"),
+        Shown(0, "y", "Period of the cycle", branch().period, "s"),
     )
     return Picture(functools.partial(branch().plot, "period"), shown)
 

@@ -9,32 +9,38 @@ from numpy.testing import assert_allclose
 import disc_model as dm
 from tests.refusals import refusal
 from tests.stability.test_continuation import STEEL
-from tests.stability.toy_maps import PERIOD, FoldMap, fold_at, outside, use
+from tests.stability.toy_maps import PERIOD, FoldMap, RoundMap, outside, use
 
 P = dm.Parameters(N=300, Omega=15)
 
 
-def test_all_curves_of_a_plane_are_found_once(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_neutral_curve_of_a_plane_is_found_once(monkeypatch: pytest.MonkeyPatch) -> None:
     use(monkeypatch, FoldMap)
     box = {"Omega": (3.0, 18.0), "N": (150.0, 450.0)}
-    curves = dm.neutral_curves(P, box, [250.0, 300.0], points=9, max_points=60)
-    assert curves.failures == ()
-    assert sorted(curve.kind for curve in curves) == ["fold", "neutral"]
-    for curve in curves:
+    found = dm.neutral_curves(P, box, [250.0, 300.0], points=9, max_points=60)
+    assert found.failures == ()
+    [curve] = found
+    assert curve.kind == "neutral"
+    assert np.all(curve.period == PERIOD)
+    assert_allclose(outside(*curve.values.T), 0, atol=1e-6)
+    assert curve.adjoins_stable_cycle.all()
+    assert curve.resonance.diameters == 1
+    # it closes on itself
+    assert_allclose(curve.values[0], curve.values[-1])
+    assert_allclose(np.ptp(curve.values, axis=0), [8, 200], rtol=0.02)
+
+
+def test_both_folds_of_a_plane_are_found_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    use(monkeypatch, RoundMap)
+    box = {"Omega": (3.0, 20.0), "N": (250.0, 350.0)}
+    found = dm.neutral_curves(P, box, [280.0, 310.0], points=9, max_points=60)
+    assert found.failures == ()
+    assert [curve.kind for curve in found] == ["fold", "fold"]
+    for curve in found:
         Omega, N = curve.values.T
-        assert np.all(curve.period == PERIOD)
-        if curve.kind == "fold":
-            assert_allclose(Omega, fold_at(N), rtol=0, atol=1e-6)
-            # a stable cycle is on one side within the ellipse only, which the line does not meet
-            assert not curve.adjoins_stable_cycle.any()
-            assert Omega.min() < 13.2 < 17.8 < Omega.max()
-        else:
-            assert_allclose(outside(Omega, N), 0, atol=1e-6)
-            assert curve.adjoins_stable_cycle.all()
-            assert curve.resonance.diameters == 1
-            # it closes on itself
-            assert_allclose(curve.values[0], curve.values[-1])
-            assert_allclose(np.ptp(curve.values, axis=0), [8, 200], rtol=0.02)
+        assert_allclose(np.abs(Omega - 12 - 0.01 * (N - 300)), 4, rtol=0, atol=1e-6)
+        assert curve.adjoins_stable_cycle.all()
+        assert N.min() < 250 < 350 < N.max()
 
 
 CURVES = {  # a case, its plane, and along a line at the middle the place of a fold of a stable cycle

@@ -125,7 +125,7 @@ def test_a_branch_passes_a_grazing_at_which_the_map_is_continuous() -> None:
     late = settled(p, 300.0, settled(p.replace(Omega=15.3), 100.0))
     branch = continue_cycle(p, "Omega", (9.0, 12.5), guess=late, direction=-1)
     assert branch.ended == "bound"
-    [after] = branch.special_after[branch.special_kind == "grazing"].tolist()
+    [after] = np.flatnonzero(branch.kind == "grazing").tolist()
     assert np.all(branch.separations[: after + 1] == 1)
     assert not branch.separations[after + 1 :].any()
     # simulated some steps beside it, one cycle loses contact, and the other keeps it

@@ -87,7 +87,6 @@ def test_the_branch_of_a_block_ends_at_its_hopf_point_and_where_stick_slip_ends(
     hopf = block.hopf_speed(RIG) / RIG.r_0
     # the smallest cycle has an amplitude of 1e-4, of which the speed depends on the square
     assert first["kind"] == "hopf"
-    assert first["label"] == "HB"
     assert first["Omega"] == pytest.approx(hopf, rel=1e-8)
     rate = abs(block.sliding_eigenvalues(RIG.replace(Omega=hopf))[0].imag)
     assert first["period"] == pytest.approx(math.tau / rate, rel=1e-7)

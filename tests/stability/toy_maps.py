@@ -158,8 +158,8 @@ class FoldMap(ToyMap):
 
 
 class RoundMap(ToyMap):
-    """x -> x + 0.2 (1 - (x - 2)^2 - ((Omega - 12) / 4)^2): the cycles are a closed curve, with
-    folds at 8 and 16 rad/s."""
+    """x -> x + 0.2 (1 - (x - 2)^2 - ((Omega - middle(N)) / 4)^2), middle(N) = 12 + 0.01 (N - 300): the
+    cycles are a closed curve, with folds at 8 and 16 rad/s for 300 N. Those of x > 2 are stable."""
 
     size = 1
     scale = np.ones(1)
@@ -167,10 +167,10 @@ class RoundMap(ToyMap):
     static = np.array([3.0])
 
     def step(self, x):
-        far = (self.parameters.Omega - 12) / 4
+        far = (self.parameters.Omega - 12 - 0.01 * (self.parameters.N - 300)) / 4
         end = x + 0.2 * (1 - (x - 2) ** 2 - far**2)
         jacobian = np.array([[1 - 0.4 * (x[0] - 2)]])
-        return end, jacobian, {"Omega": np.array([-0.1 * far])}
+        return end, jacobian, {"Omega": np.array([-0.1 * far]), "N": np.array([0.001 * far])}
 
 
 class ResonantMap(ToyMap):

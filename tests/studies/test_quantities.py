@@ -61,7 +61,7 @@ TABLE: list[tuple[str, Parameters, dict[str, Any], dict[str, Any]]] = [
         "neutral_curves",
         P,
         {"bounds": (14.5, 15.5), "lines": (370, 385), "points": 9, "max_points": 12},
-        {"kind": ["fold", "fold", "none"], "resonance_frequency": [135.419172] * 2, "n_curves": 2},
+        {"kind": ["fold", "none"], "resonance_frequency": 135.419172, "n_curves": 1},
     ),
     (
         "sliding_modes",

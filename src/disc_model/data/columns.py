@@ -125,13 +125,3 @@ def with_real_parts(data: Dataset) -> Dataset:
         if x.dtype.kind == "c":
             parts |= {f"{name}_real": x.real, f"{name}_imag": x.imag}
     return data.drop_vars({x.name for x in parts.values()}).assign(parts)
-
-
-def with_complex_values(data: Dataset) -> Dataset:
-    """A dataset with complex variables in place of the parts that `with_real_parts` has made of them."""
-    whole = {}
-    for real in map(str, data.data_vars):
-        name = real.removesuffix("_real")
-        if name != real:
-            whole[name] = data[real] + 1j * data[f"{name}_imag"]
-    return data.drop_vars([f"{x}_{part}" for x in whole for part in ("real", "imag")]).assign(whole)

@@ -62,23 +62,20 @@ def column(name: str, values: Any, attrs: Any = None, units: Any = None) -> Data
 def draw_branch(ax: Axes, branch: Any, y: str, units: Any, **look: Any) -> None:
     """Draw a variable of the cycles along a branch over its parameter: thick where they are stable,
     with the special points."""
-    x = column(branch.name, branch.refined(branch.name), units=units)
+    x = column(branch.name, branch.values, units=units)
     known = OF_RESULTS["Branch"][y].attributes
-    up = column(y, branch.refined(y), known, units)
+    up = column(y, getattr(branch, y), known, units)
     up.attrs["long_name"] = known["long_name"].capitalize()
     own = {"linewidth": THIN, "label": case_text(branch.case, branch.name)}
     [line] = ax.plot(x, up.where(np.isfinite(up)), **wished(look, **own))
     colour = line.get_color()
-    stable = stable_between(branch.refined("growth_rate"))
+    stable = stable_between(branch.growth_rate)
     thicken(ax, x, up, stable, "thick: stable", color=colour)
     mark_missing(ax, x[np.isneginf(up)], BELOW_ANY, colour, marker="v")
     for kind, (marker, name) in SPECIAL.items():
-        found = branch.special_kind == kind
-        values = branch.variable(f"special_{branch.name}")[found]
-        places = [placed(x, value) for value in values]
-        heights = [placed(up, value) for value in branch.variable(f"special_{y}")[found]]
+        found = branch.kind == kind
         marks = {"marker": marker, "markerfacecolor": colour, "markersize": 5}
-        mark_points(ax, places, heights, name, color=colour, **marks)
+        mark_points(ax, x[found], up[found], name, color=colour, **marks)
     ax.set(xlabel=label(x), ylabel=label(up))
     if y == "growth_rate":
         rate_axis(ax)

@@ -6,8 +6,8 @@ the free parameters; the Jacobian of F by both comes from the variational equati
 two cycles meet, is a regular point of the curve F = 0.  Distances mix x, over the norm of the
 static deflection, with q, over the parameters' scales.
 
-`curve` predicts and corrects points of any curve, tests whether a step stays on it, and follows
-multipliers; `cycles` is F, a branch in one parameter and its special points, `borders` those of
+`curve` predicts points of any curve, tests whether a step stays on it, and follows multipliers;
+`cycles` is F, a branch in one parameter and its special points, `borders` those of
 stability in two; `branch` is the result, and `arguments` reads what is asked.
 """
 

@@ -7,19 +7,6 @@ from disc_model.parameters import Parameters
 from disc_model.units import Finite, Unit
 
 UNSET = ("damping_ratio",)  # numbers that are None in a case without them
-ROUNDING = 1e-9  # of a value, over the scale or the span of its parameter
-LABELS: dict[str, str] = {
-    "fold": "LP",
-    "period_doubling": "PD",
-    "neimark_sacker": "TR",
-    "branch_point": "BP",
-    "grazing": "GR",
-    "hopf": "HB",
-    "end": "EP",
-    "max_points": "EP",
-    "lost": "EP",
-}
-"""Kinds of special points, and their labels in AUTO and COCO."""
 CHANGES = ("fold", "period_doubling", "neimark_sacker")
 """Kinds of special points that are located to rounding, and at which a multiplier crosses the unit
 circle."""
@@ -37,12 +24,3 @@ def require_interval(case: Parameters, name: Any, bounds: tuple[float, float]) -
             rule = "does not act in this case; give the case a value with which it does first"
         raise ParameterError(Fault.of(("name",), name, rule))
     require((bounds[0] < bounds[1], "bounds", bounds, "must be two ascending numbers"))
-
-
-def require_within(case: Parameters, name: str, bounds: tuple[float, float]) -> None:
-    """Raise `ParameterError` unless the case lies within bounds of a parameter."""
-    slack = ROUNDING * (bounds[1] - bounds[0])  # ratios are rounded
-    unit = case.unit(name).removeprefix("1")
-    rule = f"must lie within the bounds, {bounds[0]:g} to {bounds[1]:g} {unit}".strip()
-    value = case.numbers[name]
-    require((bounds[0] - slack <= value <= bounds[1] + slack, name, value, rule))

@@ -5,11 +5,11 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
-from itertools import pairwise
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any
 
 import numpy as np
 from pydantic import Field
+from scipy.interpolate import make_interp_spline
 
 from disc_model.analysis.spectra import Resonance, nearest_resonance
 from disc_model.arrays import Array, ComplexArray, Mask
@@ -17,9 +17,8 @@ from disc_model.display import counted, drawings
 from disc_model.engine.jit.cache import compiling
 from disc_model.errors import ParameterError, require
 from disc_model.parameters import Parameters
-from disc_model.stability.continuation.arguments import require_interval
+from disc_model.stability.continuation.arguments import CHANGES, require_interval
 from disc_model.stability.continuation.curve import (
-    DIVERGES,
     CurvePoint,
     Evaluation,
     Rejected,
@@ -34,19 +33,14 @@ from disc_model.stability.continuation.cycles import (
     BOUND,
     CLOSED,
     FOLD,
-    NEIMARK_SACKER,
-    PERIOD_DOUBLING,
     CycleProblem,
     Entry,
     follow_between,
-    leading,
-    parameter_scale,
 )
-from disc_model.stability.cycle import find_cycle, multipliers
+from disc_model.stability.cycle import find_cycle
 from disc_model.stability.return_map import newton_step
 from disc_model.units import UNITS, Count, CycleTolerance, Finite, Positive, Unit, checked
 
-Kind = Literal["neutral", "fold"]
 # of steps along borders, where each point costs several cycles: the first and the shortest length, as where
 # an event grazes; the growth of a step, and cosines of the angle of successive tangents, above which it grows
 # and below which it is shortened
@@ -61,13 +55,6 @@ DEFECT = 0.1  # of a step along a border, which turns by up to 37 degrees; see `
 ON_BORDER = 1e-10  # value of the test function that counts as zero
 MOST_CORRECTIONS = 12  # of Newton's method at a point of a border
 LARGEST_TURN = 0.2  # largest change of the multiplier in a step along a border
-CLOSES = 0.01  # distance from the first point of a border at which it has closed, over the step
-BORDER_KINDS: Mapping[str, Kind] = {
-    FOLD: "fold",
-    NEIMARK_SACKER: "neutral",
-    PERIOD_DOUBLING: "neutral",
-}
-"""Special points of a branch, and the borders on which they lie."""
 MOST_POINTS = 100_000  # largest number of points along a line: an hour of work
 SAME_PLACE = 0.01  # distance of a point from a curve through it, over the span of the plane
 BETWEEN = 100  # places on a curve between two of its points that are looked at
@@ -87,9 +74,11 @@ class BorderProblem:
     Numerical methods for bifurcations of dynamical equilibria, 2000, Section 4.1).
     """
 
-    def __init__(self, kind: Kind, p: Parameters, names: Sequence[str], tol: float) -> None:
+    def __init__(
+        self, kind: str, p: Parameters, bounds: Mapping[str, tuple[float, float]], tol: float
+    ) -> None:
         self.kind = kind
-        self.cycles = CycleProblem(p, names, [parameter_scale(p, name) for name in names], tol)
+        self.cycles = CycleProblem(p, bounds, tol)
         self.column = np.zeros(self.cycles.n)
         self.row = np.zeros(self.cycles.n)
         self.left = np.zeros(self.cycles.n, complex)
@@ -134,7 +123,7 @@ class BorderProblem:
             value, mu = self._test(found.jacobian)
             # Broyden's update: a gradient by differences would take four orbits at each correction
             gradient = gradient + (value - former - gradient @ move) / (move @ move) * move
-        raise Rejected(DIVERGES)
+        raise Rejected("Newton's method does not converge")
 
     def _extended(self, z: Array, found: Evaluation, mu: complex) -> Evaluation:
         """F of a cycle with the derivative of the test function by differences within the surface of
@@ -153,7 +142,7 @@ class BorderProblem:
     def _keep_vectors(self, jacobian: Array, mu: complex) -> None:
         """Keep, of a point of the border, the singular vectors that border J - I on a fold, or the
         left eigenvector by which the multiplier is known again."""
-        if self.kind == "fold":
+        if self.kind == FOLD:
             left, _, right = np.linalg.svd(jacobian - np.eye(self.cycles.n))
             self.column = left[:, -1]
             self.row = right[-1]
@@ -164,7 +153,7 @@ class BorderProblem:
     def _test(self, jacobian: Array) -> tuple[float, complex]:
         """Value of the test function, and the multiplier that gives it: the one whose eigenvector
         resembles that of the last point. Raises `Rejected` if none does."""
-        if self.kind == "fold":
+        if self.kind == FOLD:
             corner = np.zeros((1, 1))
             singular = jacobian - np.eye(self.cycles.n)
             bordered = np.block([[singular, self.column[:, None]], [self.row[None, :], corner]])
@@ -178,32 +167,24 @@ class BorderProblem:
 
 
 def follow_border(
-    problem: BorderProblem,
-    first: CurvePoint,
-    bounds: Mapping[str, tuple[float, float]],
-    steps: StepControl,
+    problem: BorderProblem, first: CurvePoint, steps: StepControl
 ) -> list[CurvePoint]:
     """The points of a border through its first one, both ways until it leaves the bounds, closes or
     ends; raises `Rejected` if no step along it succeeds."""
     n = problem.cycles.n
-    low, high = np.array(list(bounds.values())).T / problem.cycles.scales
+    low, high = problem.cycles.bounds
 
     def watch(points: list[CurvePoint]) -> str:
         """Whether a border ends at its last point: out of the bounds, or back at its first point."""
         start, new = points[0], points[-1]
         if np.any((new.z[n:] < low) | (new.z[n:] > high)):
             return BOUND
-        alike = len(points) > 3 and abs(start.found.mu - new.found.mu) <= LARGEST_TURN
-        if alike and passes(points[-2], new, start, CLOSES) is not None:
+        if len(points) > 3 and passes(points[-2], new, start):
             points[-1] = start
             return CLOSED
         return ""
 
-    slopes = first.tangent[n:]
-    slope = slopes[0] if abs(slopes[0]) > 1e-12 else slopes[1]
-    onward = first
-    if slope < 0:
-        onward = first.reversed()
+    onward = first if first.tangent[n] >= 0 else first.reversed()
     follow = partial(follow_curve, advance=problem.next_point, steps=steps, watch=watch)
     points, end = follow(onward.reversed(), growth=GROWTH, easy=EASY)
     if end != CLOSED:
@@ -263,9 +244,8 @@ class NeutralCurves:
         return len(self.curves)
 
     def __repr__(self) -> str:
-        ranges = [f"{name} from {low:g} to {high:g}" for name, (low, high) in self.bounds.items()]
-        plane = " and ".join(ranges)
-        return f"NeutralCurves({counted(len(self), 'curve')} over {plane}, {len(self.failures)} not followed)"
+        found = f"{counted(len(self), 'curve')} over {' and '.join(self.bounds)}"
+        return f"NeutralCurves({found}, {len(self.failures)} not followed)"
 
     def plot(self, ax: Any = None, **look: Any) -> Any:
         """Draw the curves with their resonances, thick beside a stable cycle and dashed where cycles end
@@ -294,7 +274,8 @@ def neutral_curves(
     longest: Positive = 0.1,
     tol: CycleTolerance = 1e-12,
 ) -> NeutralCurves:
-    """Neutral curves and folds of the cycles near the static start, in the plane of two parameters.
+    """Neutral curves and folds, on which stable cycles near the static start lose stability or end, in the
+    plane of two parameters.
 
     Parameters
     ----------
@@ -302,8 +283,8 @@ def neutral_curves(
     bounds : bounds of both, by their names: two of `Parameters.numbers`; SI units, or texts with units
     lines : values of the second parameter, within its bounds; along each of these lines the first parameter is
         scanned for curves
-    points : cycles computed along each line; a curve lies between two that differ in stability or existence. Of several
-        between the same two only one is followed: `critical` lists the crossings of a line
+    points : cycles computed along each line; a curve lies between two of which one is stable. Of several
+        between the same two only the first is followed: `critical` lists the crossings of a line
     max_points : largest number of points of a curve in each direction from the line
     longest : arclength of the longest step along a curve, see `disc_model.stability.continuation`
     tol : as in `floquet`
@@ -359,35 +340,32 @@ class _CurveSearch:
 
     def scan(self, line: float, points: int) -> None:
         """Follow all curves that pass between the points of a line, on which the second parameter
-        has one value: from special points where the cycle changes stability or ends, by continuation
-        from both neighbours."""
+        has one value, by continuation from both neighbours: from special points where a stable cycle
+        loses stability or ends."""
         x, y = self.plane
         along = np.linspace(*self.plane[x], points).tolist()
         cases = [self.p.replace(**{y: line, x: value}) for value in along]
         growth = [find_cycle(case, self.tol).growth_rate for case in cases]
-        for i, (before, after) in enumerate(pairwise(growth)):
-            if before * after > 0:
-                continue
-            for begin, end in ((i, i + 1), (i + 1, i)):
-                if not math.isnan(growth[begin]):
-                    # beyond the neighbour as long as the stable cycle goes on where the search from
-                    # the static start finds none that is stable
-                    step = end - begin
-                    beyond = growth[end::step]
-                    until = next((n for n, rate in enumerate(beyond) if rate < 0), len(beyond))
-                    most = 1
-                    if growth[begin] < 0:
-                        most = until + 1
-                    self._seek(cases[begin], along[end::step][:most])
+        for i in range(points - 1):
+            if not growth[i] * growth[i + 1] > 0:
+                self._seek(cases[i], growth[i], along[i + 1 :], growth[i + 1 :])
+                self._seek(cases[i + 1], growth[i + 1], along[i::-1], growth[i::-1])
 
-    def _seek(self, case: Parameters, ends: Sequence[float]) -> None:
-        """Follow the curve from the special point towards the first of some values of the first
-        parameter, or else the next ones, at which a stable cycle first gains or loses stability, or ends;
-        without a stable one, from the first special point. What cannot be followed, or ends elsewhere, is
-        among the failures."""
+    def _seek(
+        self, case: Parameters, rate: float, ends: Sequence[float], rates: Sequence[float]
+    ) -> None:
+        """Follow the curve at which a stable cycle first gains or loses stability, or ends, on the way of
+        the cycle of a case to the first of some values of the first parameter. What cannot be followed,
+        or ends elsewhere, is among the failures.
+
+        A stable cycle may go on where the search from the static start finds none that is stable: it is
+        followed to the next values until one is found there.
+        """
+        if math.isnan(rate):
+            return
         name = next(iter(self.plane))
         begin = case.numbers[name]
-        for end in ends:
+        for end, there in zip(ends, rates, strict=True):
             try:
                 problem, course = follow_between(case, name, begin, end, self.tol)
             except (ParameterError, Rejected) as error:
@@ -397,83 +375,62 @@ class _CurveSearch:
             if border is not None:
                 self._follow(problem, border)
                 return
-            # the cycle may reach the other value, where it is only far from the static start
-            if abs(problem.values(course.entries[-1].point.z)[0] / end - 1) > 1e-12:
+            if course.last != BOUND:
                 self.failures.append(f"{name} from {begin:.6g} to {end:.6g}: {course.last}")
+                return
+            if rate > 0 or there < 0:
                 return
 
     def _follow(self, found: CycleProblem, border: Entry) -> None:
         """Follow the curve through a special point of cycles, unless it is known."""
-        kind = BORDER_KINDS[border.kind]
+        kind = FOLD if border.kind == FOLD else "neutral"
         case = found.case(border.point.z)
         place = np.array([case.numbers[name] for name in self.plane])
         if self._is_known(kind, place, border.point.orbit.period):
             return
         try:
-            problem = BorderProblem(kind, case, [*self.plane], self.tol)
+            problem = BorderProblem(kind, case, self.plane, self.tol)
             first = problem.first(found.section_point(border.point.z), border.multiplier)
-            points = follow_border(problem, first, self.plane, self.steps)
+            points = follow_border(problem, first, self.steps)
         except (ParameterError, Rejected) as error:
-            where = ", ".join(
-                f"{x}={value:.6g}" for x, value in zip(self.plane, place, strict=True)
-            )
+            where = dict(zip(self.plane, place.tolist(), strict=True))
             self.failures.append(f"{kind} near {where}: {error}")
-            return
-
-        # it may turn out to be known at the point halfway along it, since points are dense where
-        # two borders meet
-        curve = _curve(problem, points)
-        length = np.cumsum(np.linalg.norm(np.diff(curve.values / self._span, axis=0), axis=1))
-        i = int(np.searchsorted(length, length[-1] / 2)) + 1
-        if not self._is_known(kind, curve.values[i], float(curve.period[i])):
-            self.curves.append(curve)
-
-    @property
-    def _span(self) -> Array:
-        return np.diff(list(self.plane.values()))[:, 0]
+        else:
+            self.curves.append(_curve(problem, points))
 
     def _is_known(self, kind: str, place: Array, period: float) -> bool:
         """Whether a known curve of this kind, with cycles of this period (s), passes through a
         place of the plane."""
-        return any(
-            curve.kind == kind and _passes_through(curve, place, period, self._span)
-            for curve in self.curves
-        )
-
-
-def _passes_through(curve: StabilityCurve, place: Array, period: float, span: Array) -> bool:
-    """Whether a curve, with cycles of this period (s), passes through a place of the plane."""
-    numbers = np.arange(len(curve.period))
-    between = np.linspace(0, numbers[-1], BETWEEN * len(numbers))
-    apart = (curve.values - place) / span
-    distance = np.hypot(*(np.interp(between, numbers, column) for column in apart.T))
-    relative = np.interp(between, numbers, curve.period) / period - 1
-    return bool(np.any((distance < SAME_PLACE) & (np.abs(relative) < SAME_PERIOD)))
+        span = np.diff(list(self.plane.values()))[:, 0]
+        for curve in self.curves:
+            aside = (curve.values - place) / span / SAME_PLACE
+            away = np.column_stack([aside, (curve.period / period - 1) / SAME_PERIOD])
+            numbers = np.arange(len(away))
+            between = np.linspace(0, numbers[-1], BETWEEN * len(numbers))
+            distances = np.linalg.norm(make_interp_spline(numbers, away, k=1)(between), axis=1)
+            if curve.kind == kind and distances.min() < 1:
+                return True
+        return False
 
 
 def _border_of(entries: Sequence[Entry]) -> Entry | None:
-    """The first special point of a branch beside a stable cycle, or the first of all, on a border."""
-    first = None
+    """The first special point of a branch, on a border, beside a stable cycle."""
     for i, entry in enumerate(entries):
-        if entry.kind not in BORDER_KINDS:
-            continue
-        first = first or entry
-        before = [each for each in entries[:i] if not each.kind][-1:]
-        after = [each for each in entries[i:] if not each.kind][:1]
-        if any(abs(leading(each.point)) < 1 for each in before + after):
+        beside = [each for each in entries[max(i - 1, 0) : i + 2] if each.kind not in CHANGES]
+        if entry.kind in CHANGES and any(abs(each.point.leading) < 1 for each in beside):
             return entry
-    return first
+    return None
 
 
 def _curve(problem: BorderProblem, points: Sequence[CurvePoint]) -> StabilityCurve:
     """The curve of a border that was followed."""
     cycles = problem.cycles
-    mu = np.array([multipliers(point.found.jacobian)[0] for point in points])
+    mu = np.array([point.leading for point in points])
     period = np.array([point.orbit.period for point in points])
     adjoins_stable = np.log(np.abs(mu)) / period < NEUTRAL  # no other multiplier grows
     places = np.flatnonzero(adjoins_stable)
     middle = int(places[len(places) // 2]) if places.size else len(points) // 2
-    critical = 1.0 + 0j if problem.kind == "fold" else complex(mu[middle])
+    critical = 1.0 + 0j if problem.kind == FOLD else complex(mu[middle])
     diameters = cycles.leading_diameters(points[middle])
     return StabilityCurve(
         kind=problem.kind,

@@ -1,5 +1,4 @@
-"""What a continuation returns: the dataset of a branch, its cycles along `point` and its special points
-along `special`."""
+"""What a continuation returns: the dataset of a branch, its cycles with the special ones among them."""
 
 from __future__ import annotations
 
@@ -12,8 +11,7 @@ import numpy as np
 import xarray as xr
 from pydantic import Field, InstanceOf
 
-from disc_model.arrays import Array, Mask
-from disc_model.data.columns import with_complex_values, with_real_parts
+from disc_model.arrays import Array, ComplexArray
 from disc_model.data.variables import (
     COORDINATES,
     OF_RESULTS,
@@ -27,13 +25,7 @@ from disc_model.errors import require, rule_of_choice
 from disc_model.parameters import Parameters
 from disc_model.provenance import versions_text
 from disc_model.simulation.states import State
-from disc_model.stability.continuation.arguments import (
-    CHANGES,
-    LABELS,
-    Bounds,
-    require_interval,
-    require_within,
-)
+from disc_model.stability.continuation.arguments import CHANGES, Bounds, require_interval
 from disc_model.stability.continuation.curve import MOST_POINTS, CurvePoint, StepControl
 from disc_model.stability.continuation.cycles import (
     CLOSED,
@@ -41,13 +33,10 @@ from disc_model.stability.continuation.cycles import (
     HOPF,
     LOST,
     PERIOD_DOUBLING,
-    SAME_VALUE,
     Course,
     CycleProblem,
-    Entry,
     Tracer,
     first_cycle,
-    leading,
 )
 from disc_model.stability.cycle import STICK_SLIP, Kind, multipliers, require_single
 from disc_model.stability.segments import extremes_of_cycle
@@ -57,29 +46,29 @@ if TYPE_CHECKING:
     import pandas as pd
 
 VARIABLES = ("growth_rate", "period", "stick_fraction", "range", "u_min", "u_max")
-"""What is known of each cycle of a branch, and of each special point; the last three by simulation."""
+"""What is drawn of each cycle of a branch; the last three by simulation."""
 SHOWN_ENDS = (GRAZING, HOPF, PERIOD_DOUBLING, MOST_POINTS, LOST)
 """Ends that are special points of a kind of their own."""
 NEUTRAL = 1e-6  # logarithm of a multiplier's modulus that counts as 0 at a special point
+SAME_VALUE = 1e-12  # relative difference of two values of a parameter that is rounding
 STATE = ("psi", "f", "u", "u_velocity", "phase", "direction", *COORDINATES)
-"""Values of a cycle's state on the section, at time 0."""
-OF_CYCLES = (
-    *("largest_multiplier", "stable", "multipliers", "separations", "releases", "diameters"),
-)
-"""What is given of the points of a branch, but not of special ones."""
+"""Values of a cycle's state on the section, at time 0: variables with the beginning "state_", because a
+parameter may have one of these names."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Branch:
-    """Cycles along a curve, their special points, and why it ends: what `continue_cycle` returns.
+    """Cycles along a curve, special ones among them, and why it ends: what `continue_cycle` returns, and
+    what is made of a stored dataset of one. Raises `ParameterError` for another dataset.
 
     The variables of its dataset are attributes, as arrays.
 
     Attributes
     ----------
-    data : the dataset
+    data : the dataset, see `to_dataset`
     period : s; stick_fraction; growth_rate : 1/s; each (n_points,)
     stable : bool, (n_points,), whether disturbances decay
+    kind : (n_points,), of special points, see `special_points`; else ""
     multipliers : complex, (n_points, n), largest modulus first
     diameters : int, (n_points,), nodal diameters of the modes with most energy in the leading multiplier's eigenvector
     separations, releases : int, (n_points,), in a period: twice as many releases beyond a period doubling
@@ -88,23 +77,29 @@ class Branch:
     Examples
     --------
     >>> import disc_model as dm
-    >>> branch = dm.continue_cycle(dm.Parameters(N=385, Omega=14.9), "Omega", (14.8, 15.2))
+    >>> case = dm.Parameters(N=385, Omega=14.9)
+    >>> dm.save(dm.continue_cycle(case, "Omega", (14.8, 15.2)), "branch.nc")
+    >>> branch = dm.Branch(dm.load("branch.nc"))
     >>> branch.folds.round(6)
     array([15.094912])
     """
 
     data: xr.Dataset
 
-    def __getattr__(self, name: str) -> Array:
-        if name.startswith("_") or name == "data":
-            raise AttributeError(name)
-        return self.variable(name)
+    def __post_init__(self) -> None:
+        known = isinstance(self.data, xr.Dataset) and {"kind", "state_beta"} <= {*self.data}
+        rule = "must be a dataset of Branch.to_dataset, whole and unchanged"
+        require((known, "data", type(self.data).__name__, rule))
 
-    def variable(self, name: str) -> Array:
-        """A variable of the dataset."""
-        if name not in self.data.variables:
+    def __getattr__(self, name: str) -> Array:
+        if name == "data" or name not in self.data.variables:
             raise AttributeError(f"a branch has no {name}")
         return np.asarray(self.data[name].values)
+
+    @property
+    def multipliers(self) -> ComplexArray:
+        """Multipliers, shape (n_points, n), largest modulus first."""
+        return np.asarray(self.multipliers_real + 1j * self.multipliers_imag)
 
     @property
     def name(self) -> str:
@@ -127,18 +122,18 @@ class Branch:
     @property
     def values(self) -> Array:
         """The free parameter, shape (n_points,), in SI units."""
-        return self.variable(self.name)
+        return np.asarray(self.data[self.name].values)
 
     @property
     def folds(self) -> Array:
         """Values at which the parameter turns, located to rounding, shape (n_folds,)."""
-        return self.variable(f"special_{self.name}")[self.variable("special_kind") == "fold"]
+        return self.values[self.kind == "fold"]
 
     def __len__(self) -> int:
         return int(self.data.sizes["point"])
 
     def __repr__(self) -> str:
-        values = np.concatenate([self.values, self.variable(f"special_{self.name}")])
+        values = self.values
         unit = unit_of_parameter(self.name)
         span = f"{self.name} from {values.min():.6g} to {values.max():.6g} {unit}".rstrip()
         folds = counted(len(self.folds), "fold")
@@ -152,83 +147,64 @@ class Branch:
           multipliers has modulus one; "grazing", a switch is touched, and an event appears or vanishes; "hopf", the
           cycle shrinks to steady sliding; "branch_point", another branch crosses; "end", of the branch;
           "max_points", its end for no other reason than the number of points; "lost", its end where no step succeeds
-        - label: of the kind in AUTO and COCO: LP, PD, TR, BP, HB, EP; GR
-        - the parameter by its name; period (s); stick_fraction; range, u_min, u_max (m)
-        - growth_rate (1/s): exactly 0 where the cycle gains or loses stability, as `changes_stability` says
+        - point: its number along the branch
+        - growth_rate (1/s): exactly 0 where the cycle gains or loses stability
         - multiplier: the one that is critical; at a grazing and at an end, the leading one
-        - after: number of the point of the branch before it, or at it
-        - state: the cycle's `State` on the section, at time 0, to simulate, to draw, and to start again from
+        - the parameter by its name, and what else is known of cycles
+        - state: the cycle's `State`, see `state`
 
         Examples
         --------
         >>> import disc_model as dm
         >>> branch = dm.continue_cycle(dm.Parameters(N=385, Omega=14.9), "Omega", (14.8, 15.2))
-        >>> branch.special_points[["kind", "label", "Omega"]]
-           kind label      Omega
-        0   end    EP  14.800000
-        1  fold    LP  15.094912
-        2   end    EP  14.800000
+        >>> branch.special_points[["kind", "Omega"]]
+           kind      Omega
+        0   end  14.800000
+        1  fold  15.094912
+        2   end  14.800000
         """
-        table = self.data.drop_dims(["point", "mode", "multiplier"]).to_dataframe()
-        table.columns = [str(name).removeprefix("special_") for name in table]
-        states: Any = {"state": [self.state(i, "special_") for i in range(len(table))]}
-        return table.reset_index(drop=True).assign(**states)
+        special = self.data.drop_dims(["mode", "multiplier"]).isel(point=self.kind != "")
+        table = special.drop_vars(
+            [x for x in special if str(x).startswith("state_")]
+        ).to_dataframe()
+        multiplier = table.pop("critical_real") + 1j * table.pop("critical_imag")
+        points = np.flatnonzero(self.kind).tolist()
+        states: Any = [self.state(i) for i in points]
+        return table.reset_index(drop=True).assign(
+            multiplier=multiplier.tolist(), point=points, state=states
+        )
 
     def to_dataset(self) -> xr.Dataset:
         """The whole branch as a dataset, to save, or to handle by xarray and pandas.
 
         Along `point`: the parameter by its name, `growth_rate` (1/s), `period` (s),
-        `stick_fraction`, `range`, `u_min` and `u_max` (m), `largest_multiplier` (modulus), `stable`,
-        `separations`, `releases`, `diameters`, `multipliers_real` and `multipliers_imag`, and the cycle's
-        state on the section: `psi`, `f`, `u`, `u_velocity`, `phase`, `direction` and, along `mode`, `a`,
-        `b`, `alpha`, `beta`. Along `special`, each with the beginning `special_`: `special_kind`,
-        `special_label`, the parameter, `special_multiplier`, `special_after`, `special_changes_stability`,
-        and what cycles have, the state included. Attributes: `ended`, and the case's `parameters` in JSON.
+        `stick_fraction`, `range`, `u_min` and `u_max` (m), `stable`, `separations`, `releases`,
+        `diameters`, `multipliers_real` and `multipliers_imag`, and the cycle's state on the section:
+        `state_psi` and so on and, along `mode`, `state_a`, `state_b`, `state_alpha`, `state_beta`. The
+        `kind` of special points, else "", and their critical multiplier, `critical_real`
+        and `critical_imag`. Attributes: `ended`, and the case's `parameters` in JSON.
 
         Examples
         --------
         >>> import disc_model as dm
         >>> branch = dm.continue_cycle(dm.Parameters(N=385, Omega=14.9), "Omega", (14.8, 15.2))
         >>> data = branch.to_dataset()
-        >>> data["special_kind"].values.tolist(), data["period"].attrs["units"]
-        (['end', 'fold', 'end'], 's')
+        >>> data["kind"].values[[0, -1]].tolist(), data["period"].attrs["units"]
+        (['end', 'end'], 's')
         >>> dm.save(data, "branch.nc")
         >>> dm.load("branch.nc").identical(data)
         True
         """
-        return with_real_parts(self.data)
-
-    @classmethod
-    def from_dataset(cls, data: xr.Dataset) -> Branch:
-        """The branch of a dataset that `to_dataset` has made, also one that was saved and loaded, to
-        plot, and to start again from its cycles; raises `ParameterError` if it is another dataset.
-
-        Examples
-        --------
-        >>> import disc_model as dm
-        >>> case = dm.Parameters(N=385, Omega=14.9)
-        >>> dm.save(dm.continue_cycle(case, "Omega", (14.8, 15.2)).to_dataset(), "branch.nc")
-        >>> branch = dm.Branch.from_dataset(dm.load("branch.nc"))
-        >>> branch.plot("period").get_xlabel()
-        'Speed Ω (rad/s)'
-        >>> dm.continue_cycle(branch.case_at(-1), "Omega", (14.7, 14.9), guess=branch.state(-1))
-        Branch(... cycles, Omega from 14.7 to 14.9 rad/s, 0 folds; ended: bound)
-        """
-        names = {"multipliers_real", "releases", "special_kind", "u_max", "a", "special_a"}
-        attrs = {"ended", "parameters", "free_parameters"}
-        known = isinstance(data, xr.Dataset) and names <= {*data} and attrs <= {*data.attrs}
-        rule = "must be a dataset of Branch.to_dataset, whole and unchanged"
-        require((known, "data", type(data).__name__, rule))
-        return cls(with_complex_values(data))
+        return self.data
 
     def case_at(self, i: int) -> Parameters:
         """The case of the i-th cycle."""
         return self.case.replace(**{self.name: float(self.values[i])})
 
-    def state(self, i: int, begin: str = "") -> State:
+    def state(self, i: int) -> State:
         """The state of the i-th cycle on the section, at the end of stick or, without stick, where
-        the spring is longest, and at time 0, to simulate and draw; the cycle may be unstable. With the
-        beginning ``"special_"``, that of the i-th special point.
+        the spring is longest, and at time 0, to simulate, to draw, and to start again from; the cycle
+        may be unstable.
 
         Examples
         --------
@@ -240,18 +216,8 @@ class Branch:
         >>> float(abs(run.final_state.u / branch.state(-1).u - 1)) < 1e-10
         True
         """
-        return State(time=0.0, **{name: self.variable(begin + name)[i].tolist() for name in STATE})
-
-    def refined(self, name: str) -> Array:
-        """A variable of each cycle, such as the parameter, at the points of the branch and, in their
-        places between these, where a multiplier crosses the unit circle, with the value of the point
-        before if special points have none of their own; shape (n_points + n_crossings,), in SI units."""
-        located = np.isin(self.variable("special_kind"), CHANGES)
-        after = self.variable("special_after")[located].astype(int)
-        own = self.variable(name)
-        known = f"special_{name}" in self.data.variables
-        inserted = self.variable(f"special_{name}")[located] if known else own[after]
-        return np.insert(own, after + 1, inserted)
+        values = {name: self.data[f"state_{name}"].values[i].tolist() for name in STATE}
+        return State(time=0.0, **values)
 
     def plot(
         self,
@@ -286,15 +252,13 @@ class Branch:
 def row_of(problem: CycleProblem, point: CurvePoint) -> dict[str, Any]:
     """What is kept of a cycle while the map of its case is at hand, the extremes of the slider's height
     by simulation."""
-    whole = problem.state(point.z)
-    own = {name: getattr(whole, name) for name in STATE}
+    state = problem.state(point.z).replace(time=0.0)
     period = point.orbit.period
-    low, high = extremes_of_cycle(problem.case(point.z), State(time=0.0, **own), period)
+    low, high = extremes_of_cycle(problem.case(point.z), state, period)
     values = multipliers(point.found.jacobian)
-    largest = abs(complex(values[0]))
     growth_rate = -math.inf
-    if largest:
-        growth_rate = math.log(largest) / period
+    if values[0]:
+        growth_rate = math.log(abs(values[0])) / period
     return {
         problem.names[0]: float(problem.values(point.z)[0]),
         "growth_rate": growth_rate,
@@ -303,83 +267,52 @@ def row_of(problem: CycleProblem, point: CurvePoint) -> dict[str, Any]:
         "range": high - low,
         "u_min": low,
         "u_max": high,
-        **own,
-        "largest_multiplier": largest,
         "stable": growth_rate < 0,
-        "multipliers": values,
+        "multipliers_real": values.real,
+        "multipliers_imag": values.imag,
         "separations": point.orbit.counts.separations,
         "releases": point.orbit.counts.releases,
         "diameters": problem.leading_diameters(point),
+        **{f"state_{name}": getattr(state, name) for name in STATE},
     }
 
 
 def branch_of(problem: CycleProblem, course: Course, exact: Sequence[float] = ()) -> Branch:
     """The branch of a course. Values of the parameter that scaling has moved by its rounding from
     one of some `exact` ones are these."""
-    entries = _with_ends(course)
-    kinds = np.array([entry.kind for entry in entries])
-    is_special = kinds != ""
-    columns = {x: np.array([entry.kept[x] for entry in entries]) for x in entries[0].kept}
+    entries = course.entries
+    # a branch that closes has no ends; others may end at a special point
+    if course.last != CLOSED:
+        for i, end in ((0, course.first), (-1, course.last)):
+            if not entries[i].kind:
+                kind = end if end in SHOWN_ENDS else "end"
+                entries[i] = entries[i]._replace(kind=kind, multiplier=entries[i].point.leading)
+    rows = []
+    for entry in entries:
+        critical = {"critical_real": entry.multiplier.real, "critical_imag": entry.multiplier.imag}
+        rows.append({**entry.kept, "kind": entry.kind, **critical})
+    columns = {x: np.array([row[x] for row in rows]) for x in rows[0]}
     [name] = problem.names
     for value in exact:
-        near = np.abs(columns[name] - value) <= SAME_VALUE * abs(value)
-        columns[name][near & ~is_special] = value
+        columns[name][np.isclose(columns[name], value, rtol=SAME_VALUE, atol=0)] = value
     growth = columns["growth_rate"]
-    neutral = (np.abs(growth * columns["period"]) <= NEUTRAL) & np.isin(kinds, CHANGES)
-    growth[neutral] = 0.0
-    both = {x: column for x, column in columns.items() if x not in OF_CYCLES}
-    of_special = {
-        "kind": kinds,
-        "label": np.array([LABELS.get(kind, "") for kind in kinds]),
-        "multiplier": np.array([entry.multiplier for entry in entries], dtype=complex),
-        "after": np.maximum(np.cumsum(~is_special) - 1, 0),
-        "changes_stability": neutral,
-    }
+    neutral = np.abs(growth * columns["period"]) <= NEUTRAL
+    growth[neutral & np.isin(columns["kind"], CHANGES)] = 0.0
+
+    known = OF_RESULTS["Branch"]
+    variables = {}
+    for x, column in columns.items():
+        own = x.removeprefix("state_")
+        dims = ("point", "mode" if own in COORDINATES else "multiplier")
+        attrs = attributes(name) if x == name else known[own].attributes
+        variables[x] = xr.Variable(dims[: column.ndim], column, attrs)
     attrs = {
         "ended": "; ".join(dict.fromkeys(filter(None, (course.first, course.last)))),
         "parameters": problem.base.canonical_json,
         "free_parameters": name,
         "versions": versions_text(),
     }
-    variables = _variables("point", "", columns, ~is_special)
-    variables |= _variables("special", "special_", both | of_special, is_special)
-    return Branch(xr.Dataset(variables, attrs=attrs).set_coords([name, f"special_{name}"]))
-
-
-def _with_ends(course: Course) -> list[Entry]:
-    """The points and special points of a course, its ends among the latter; one that closes or
-    begins at a special point has that instead."""
-    entries = list(course.entries)
-    first = entries[0]
-    if course.last != CLOSED:
-        entries.append(_end_of(course.last, entries[-1]))
-    if not (first.kind or course.last == CLOSED):
-        entries.insert(1, _end_of(course.first, first))
-    return entries
-
-
-def _end_of(end: str, entry: Entry) -> Entry:
-    """The end of a branch as a special point; without a reason it is the start."""
-    kind = "end"
-    if end in SHOWN_ENDS:
-        kind = end
-    return entry._replace(kind=kind, multiplier=leading(entry.point))
-
-
-def _variables(
-    dim: str, begin: str, columns: Mapping[str, Array], rows: Mask
-) -> dict[str, xr.Variable]:
-    """Some rows of columns along a dimension as variables, whose names have a beginning, and their numbers
-    along it; a second dimension is that of the multipliers or modes."""
-    known = OF_RESULTS["Branch"]
-    variables = {dim: xr.Variable(dim, np.arange(rows.sum()), known[dim].attributes)}
-    for name, column in columns.items():
-        second = "multiplier"
-        if name in COORDINATES:
-            second = "mode"
-        attrs = known[name].attributes if name in known else attributes(name)
-        variables[begin + name] = xr.Variable((dim, second)[: column.ndim], column[rows], attrs)
-    return variables
+    return Branch(xr.Dataset(variables, attrs=attrs).set_coords(name))
 
 
 # ---- The function
@@ -443,16 +376,17 @@ def continue_cycle(  # noqa: PLR0913
     """
     require_single(guess, releases, kind)
     require_interval(case, name, bounds)
-    require_within(case, name, bounds)
-    farthest = max(map(abs, bounds))
-    problem, start = first_cycle(case, name, farthest, tol, guess, releases, kind)
+    value = case.numbers[name]
+    rule = f"must lie within the bounds, {bounds[0]:g} to {bounds[1]:g}"
+    require((bounds[0] <= value <= bounds[1], name, value, rule))
+    problem, start = first_cycle(case, name, bounds, tol, guess, releases, kind)
     with progress_bar("continue_cycle", None, progress) as bar:
 
         def keep(point: CurvePoint) -> dict[str, Any]:
-            value = problem.values(point.z)[0]
-            bar.describe(f"continue_cycle at {value_with_unit(name, value)}")
+            here = value_with_unit(name, problem.values(point.z)[0])
+            bar.describe(f"continue_cycle at {here}")
             bar.advance()
             return row_of(problem, point)
 
-        course = Tracer(problem, steps, bounds, keep).follow(start, direction)
-    return branch_of(problem, course, (*bounds, case.numbers[name]))
+        course = Tracer(problem, steps, keep).follow(start, direction)
+    return branch_of(problem, course, (*bounds, value))

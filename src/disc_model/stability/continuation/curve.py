@@ -1,8 +1,8 @@
-"""Pseudo-arclength: points of a curve F(z) = 0 by prediction and correction, the test that a step
+"""Pseudo-arclength: steps along a curve F(z) = 0, the test that a step
 stays on it, and the multipliers of its cycles, followed from point to point.
 
 F has one row less than z has entries.  A step predicts on the cubic through the former point, and
-corrects within a plane; `check_step` then compares both points as those of a smooth curve.  The
+a corrector goes on within a plane; `check_step` then compares both points as those of a smooth curve.  The
 sign of det [F'; tangent] is constant along a curve of regular points: a corrector that has come to
 another part of the curve often shows the other one.
 
@@ -12,41 +12,38 @@ it turned, which the set of multipliers, symmetric about the real axis, does not
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Annotated, NamedTuple, Protocol
+from typing import Annotated, NamedTuple
 
 import numpy as np
 from pydantic import Field
+from scipy.interpolate import CubicHermiteSpline
 from scipy.optimize import linear_sum_assignment
 
 from disc_model.arrays import Array, ComplexArray, Indices
 from disc_model.errors import DiscModelError
-from disc_model.stability.return_map import Orbit, newton_step, rounding
+from disc_model.stability.return_map import Orbit
 from disc_model.units import Count, Positive, Strict
 
-MOST_CORRECTIONS = 14  # of Newton's method with Broyden's updates, which takes 3 to 5
-MOST_DERIVATIVES = 4  # computed anew in a correction that is slow
-SLOW = 0.3  # a correction that leaves more of the residual needs the derivative at its own point
-GOAL = 30  # residual of a point, over the tolerance of the map
 # A step is taken along one smooth curve if, relative to its length, the corrector moves by no more
 # than DRIFT, and the chord differs from the mean tangent by no more than DEFECT: for an arc that
 # turns by an angle t they are t^2 / 4 and t^2 / 12 at most, a sixteenth and a fiftieth for 30 deg.
 DRIFT = 0.25
 DEFECT = 0.02
-# the last correction of a point whose residual is limited by rounding; a residual that is as small
-# but no zero, as beside a narrow fold, leads to corrections a hundred times as large
-UNCERTAIN = 1e-7
 MOST_POINTS = "max_points"  # why a curve ends that has as many points as it may
-DIVERGES = "Newton's method does not converge"
+SAME = 0.01  # distance of a curve from a point through which it passes, over the step
 FARTHEST_PREDICTION = 2  # length of a step that is predicted from the former one, over that
 FARTHEST = 0.5  # of a single corrector's way, relative to the step, before it is given up
 SHARPEST = 0.9  # cosine of the angle between successive tangents, below which a step is shortened
 EASY = 0.99  # the same, above which the next step is longer
 GROWTH = 1.5  # factor of such a step
 STRONGLY_DAMPED = 0.5  # modulus below which a multiplier causes neither a resonance nor a loss
+FASTEST_TURN = 1.2  # rad, of a multiplier within a step: its sense would be in doubt beyond pi
+RESONANT = 2.0  # distance from a resonance at which it shows, over its width
+NARROWEST = 1e-5  # width of a resonance of undamped multipliers, rad
+MOST_TONGUES = 6  # resonances within a step, but forced ones, that are looked at
 
 
 class Rejected(DiscModelError):
@@ -63,7 +60,6 @@ class StepControl(Strict):
     ----------
     step, longest, shortest : arclength of the first, the longest and the shortest step
     max_points : largest number of points in each direction
-    beyond : whether a branch ends at the first point beyond a bound, instead of at the bound
 
     Examples
     --------
@@ -77,7 +73,6 @@ class StepControl(Strict):
     longest: Positive = 0.1
     shortest: Positive = 1e-7
     max_points: Annotated[Count, Field(ge=1)] = 2000
-    beyond: bool = False
 
 
 class Evaluation(NamedTuple):
@@ -91,21 +86,6 @@ class Evaluation(NamedTuple):
     jacobian: Array
     mu: complex = 1.0
     turning: ComplexArray = np.zeros(0, complex)
-
-
-class Problem(Protocol):
-    """F, whose zeros form the curve, to a relative tolerance `tol`. Both methods raise `Rejected` where
-    F has no value."""
-
-    tol: float
-
-    def residual(self, z: Array) -> Array:
-        """F at z, which costs little."""
-        ...
-
-    def evaluate(self, z: Array) -> Evaluation:
-        """F at z, with its derivatives."""
-        ...
 
 
 @dataclass(frozen=True, eq=False)
@@ -132,6 +112,11 @@ class CurvePoint:
         return float(self.z[-1])
 
     @property
+    def leading(self) -> complex:
+        """The multiplier of largest modulus; 0 on a section of a single point."""
+        return complex(next(iter(self.spectrum.values), 0.0))
+
+    @property
     def slope(self) -> float:
         """The parameter's share of the unit tangent, which vanishes at a fold."""
         return float(self.tangent[-1])
@@ -139,57 +124,6 @@ class CurvePoint:
     def reversed(self) -> CurvePoint:
         """The same point of a curve that is followed in the other sense."""
         return replace(self, tangent=-self.tangent, orientation=-self.orientation)
-
-
-def solve(
-    problem: Problem, guess: Array, rows: Array, matrix: Array, radius: float = np.inf
-) -> tuple[Array, Evaluation]:
-    """Solve F(z) = 0 within the plane through `guess` normal to the `rows`, by Newton's method.
-
-    It starts with a `matrix` [F'; rows] from nearby and improves it by Broyden's updates, because F
-    costs a tenth of its derivatives. Returns z and F there. Raises `Rejected` if the iteration
-    leaves a `radius` round the guess, or does not converge.
-    """
-    z = guess
-    step: Array | None = None
-    last = np.inf
-    derivatives = 0
-    fresh = False  # whether the matrix is that at the former iterate
-    for _ in range(MOST_CORRECTIONS):
-        right = np.concatenate([problem.residual(z), rows @ (z - guess)])
-        error = float(np.linalg.norm(right))
-        if error <= GOAL * problem.tol:
-            break
-
-        if step is not None and error > SLOW * last:
-            small = float(np.linalg.norm(step)) <= UNCERTAIN
-            by_rounding = small and error <= rounding(problem.tol, 1e4)
-            if by_rounding and (fresh or derivatives == MOST_DERIVATIVES):
-                break
-            if derivatives == MOST_DERIVATIVES:
-                raise Rejected(DIVERGES)
-            matrix = np.vstack([problem.evaluate(z).by, rows])
-            derivatives += 1
-            fresh = True
-        elif step is not None:
-            matrix = matrix + np.outer(right, step) / (step @ step)
-            fresh = False
-
-        last = error
-        step = -newton_step(matrix, right)
-        z = z + step
-        if not np.linalg.norm(z - guess) <= radius:
-            raise Rejected("the corrector moves too far")
-    else:
-        raise Rejected(DIVERGES)
-
-    # one more correction, now with the derivatives at this point, which are needed anyhow
-    found = problem.evaluate(z)
-    left = np.concatenate([found.residual, rows @ (z - guess)])
-    z = z - newton_step(np.vstack([found.by, rows]), left)
-    if not np.linalg.norm(z - guess) <= radius:  # as where two branches cross
-        raise Rejected("the corrector moves too far")
-    return z, found
 
 
 def curve_point(z: Array, found: Evaluation, along: Array) -> CurvePoint:
@@ -201,36 +135,30 @@ def curve_point(z: Array, found: Evaluation, along: Array) -> CurvePoint:
         tangent = np.linalg.solve(matrix, end)
     except np.linalg.LinAlgError:  # the curve is normal to the vector
         tangent = np.linalg.svd(found.by)[2][-1]
-    tangent = np.asarray(tangent, dtype=np.float64) / float(np.linalg.norm(tangent))
+    tangent = np.asarray(tangent, dtype=float) / float(np.linalg.norm(tangent))
     sign, _ = np.linalg.slogdet(np.vstack([found.by, tangent]))
     return CurvePoint(z, found, tangent, float(sign))
 
 
-class Guess(NamedTuple):
-    """Where a point of a curve is expected, and F's derivative there, (n, n + 1)."""
-
-    z: Array
-    by: Array
-
-
-def predict(former: CurvePoint | None, current: CurvePoint, ds: float) -> Guess:
-    """The point expected at arclength ds ahead: along the tangent, or on the cubic through a former
-    point if that is not much nearer, because little is known of a long way from a short one."""
-    if former is not None:
-        length = float(np.linalg.norm(current.z - former.z))
+def predict(points: Sequence[CurvePoint], ds: float) -> tuple[Array, Array]:
+    """The point expected at arclength ds beyond the last of some, and F' there: on the cubic through it
+    and the one before, or along the tangent if that is much nearer, because little is known of a long way
+    from a short one."""
+    current = points[-1]
+    if len(points) > 1:
+        length = float(np.linalg.norm(current.z - points[-2].z))
         if ds <= FARTHEST_PREDICTION * length:
-            return interpolate(former, current, 1 + ds / length)
-    return Guess(current.z + ds * current.tangent, current.found.by)
+            return interpolate(points[-2], current, 1 + ds / length)
+    return current.z + ds * current.tangent, current.found.by
 
 
-def interpolate(before: CurvePoint, after: CurvePoint, share: float) -> Guess:
-    """The point at a share of the way between two, on the cubic with both tangents; beyond the
-    second for a share above one."""
+def interpolate(before: CurvePoint, after: CurvePoint, share: float) -> tuple[Array, Array]:
+    """The point at a share of the way between two, on the cubic with both tangents, and F' there; beyond
+    the second for a share above one."""
     length = float(np.linalg.norm(after.z - before.z))
-    rest = 1 - share
-    ends = rest**2 * (1 + 2 * share) * before.z + share**2 * (1 + 2 * rest) * after.z
-    bend = share * rest * (rest * before.tangent - share * after.tangent)
-    return Guess(ends + length * bend, rest * before.found.by + share * after.found.by)
+    slopes = [length * before.tangent, length * after.tangent]
+    cubic = CubicHermiteSpline([0.0, 1.0], [before.z, after.z], slopes)
+    return cubic(share), (1 - share) * before.found.by + share * after.found.by
 
 
 def check_step(
@@ -251,18 +179,15 @@ def check_step(
         raise Rejected("the curve bends within the step")
 
 
-def passes(before: CurvePoint, after: CurvePoint, known: CurvePoint, near: float) -> float | None:
-    """The share of the way between two neighbours at which the curve comes within a distance,
-    `near` of their chord, of a known point; None if it does not."""
+def passes(before: CurvePoint, after: CurvePoint, known: CurvePoint) -> bool:
+    """Whether the curve between two neighbours passes through a known point in its sense."""
     chord = after.z - before.z
     length = float(np.linalg.norm(chord))
     share = float((known.z - before.z) @ chord) / length**2
-    if not 0 < share <= 1:
-        return None
-    apart = float(np.linalg.norm(interpolate(before, after, share).z - known.z))
-    if apart <= near * length:
-        return share
-    return None
+    if not 0 < share <= 1 or known.tangent @ chord < 0:
+        return False
+    there, _ = interpolate(before, after, share)
+    return bool(np.linalg.norm(there - known.z) <= SAME * length)
 
 
 def follow_curve(
@@ -303,39 +228,25 @@ def follow_curve(
 
 
 class Spectrum(NamedTuple):
-    """Eigenvalues of the return map's Jacobian, (n,); right eigenvectors as columns, and left ones
-    as rows with the product one, (n, n) each."""
+    """Eigenvalues of the return map's Jacobian, (n,), largest modulus first; right eigenvectors as
+    columns, and left ones as rows with the product one, (n, n) each."""
 
     values: ComplexArray
     right: ComplexArray
     left: ComplexArray
 
 
-class Passing(NamedTuple):
-    """A resonance that is passed between two points: the sum or the difference of the angles of two
-    multipliers comes to a multiple of 2 pi.
-
-    share : of the way at which it is passed, if angles change evenly
-    distance : of that sum or difference from the resonance at the nearer point, rad
-    width : the sum of the distances of both moduli from one there: within it the resonance shows
-    forced : whether a multiplier passes 1, where the cycle itself responds
-    """
-
-    share: float
-    distance: float
-    width: float
-    forced: bool
-
-
 def spectrum_of(jacobian: Array) -> Spectrum:
     """The spectrum of a Jacobian (n, n)."""
     values, right = np.linalg.eig(jacobian)
-    right = right.astype(complex)
+    order = np.argsort(-np.abs(values), kind="stable")
+    values = values[order].astype(complex)
+    right = right[:, order].astype(complex)
     try:
         left = np.linalg.inv(right)
     except np.linalg.LinAlgError:  # two multipliers with one eigenvector, as where a pair parts
         left = np.linalg.pinv(right)
-    return Spectrum(values.astype(complex), right, left)
+    return Spectrum(values, right, left)
 
 
 def follow_multipliers(before: Spectrum, after: Spectrum) -> Indices:
@@ -344,52 +255,40 @@ def follow_multipliers(before: Spectrum, after: Spectrum) -> Indices:
     return np.asarray(linear_sum_assignment(-resemblance)[1])
 
 
-class Turns(NamedTuple):
-    """Those multipliers of one point of modulus above `STRONGLY_DAMPED` and positive imaginary
-    part: their angles, by which angle each turns up to another point, at most pi, and the distances
-    of their moduli from one at both, (2, n)."""
+def hidden_resonances(before: Spectrum, after: Spectrum) -> list[tuple[float, bool]]:
+    """The resonances between two points that neither of them is near enough to show: where the product of
+    two multipliers, or of one with the conjugate of another, comes to an angle of 0. In their order,
+    each with its share of the way, if angles change evenly, and whether a multiplier passes 1 itself,
+    so that the cycle responds.
 
-    angles: Array
-    turns: Array
-    damping: Array
-
-
-def turns_between(before: Spectrum, after: Spectrum) -> Turns:
-    """How multipliers turn between two points; those that are damped more strongly at one of them cause
-    no loss of stability."""
+    All of the latter are among them, and those of the least damped others.  Multipliers that are
+    strongly damped at one of the points count for nothing.  Raises `Rejected` if one turns so fast
+    that its sense is in doubt.
+    """
     successors = after.values[follow_multipliers(before, after)]
     weakly_damped = np.minimum(np.abs(before.values), np.abs(successors)) > STRONGLY_DAMPED
     followed = weakly_damped & (before.values.imag > 0)
     both = np.array([before.values[followed], successors[followed]])
-    return Turns(np.angle(both[0]), np.angle(both[1] / both[0]), np.abs(1 - np.abs(both)))
+    if np.abs(np.angle(both[1] / both[0])).max(initial=0.0) > FASTEST_TURN:
+        raise Rejected("a multiplier turns too fast")
 
-
-def passings(between: Turns) -> list[Passing]:
-    """The resonances that are passed between two points, in their order.
-
-    The sum of an angle with itself comes to a multiple of 2 pi where a multiplier meets its
-    conjugate, at 1 or at -1.
-    """
-    first, second = np.triu_indices(len(between.angles))
-    different = first != second
-    sign = np.repeat([1, -1], [len(first), different.sum()])
-    i = np.append(first, first[different])
-    j = np.append(second, second[different])
-    starts = (between.angles[i] + sign * between.angles[j]) / math.tau
-    changes = (between.turns[i] + sign * between.turns[j]) / math.tau
-    levels = np.maximum(np.floor(starts), np.floor(starts + changes))
-    found = list[Passing]()
-    for k in np.flatnonzero(np.floor(starts) != np.floor(starts + changes)):
-        ahead = levels[k] - starts[k]
-        distances = math.tau * np.abs([ahead, ahead - changes[k]])
-        nearer = int(distances[1] < distances[0])
-        damping = between.damping[nearer]
-        found.append(
-            Passing(
-                share=float(ahead / changes[k]),
-                distance=float(distances[nearer]),
-                width=float(damping[i[k]] + damping[j[k]]),
-                forced=bool(i[k] == j[k] and levels[k] % 2 == 0),
-            )
-        )
-    return sorted(found)
+    # each with itself and others, and each with the conjugates of others
+    same = np.triu_indices(both.shape[1])
+    other = np.triu_indices(both.shape[1], 1)
+    sums = both[:, same[0]] * both[:, same[1]]
+    differences = both[:, other[0]] * both[:, other[1]].conj()
+    start, end = np.hstack([sums, differences])
+    angles = np.angle(start)
+    turns = np.angle(end / start)
+    distances = np.abs([angles, angles + turns])
+    nearer = np.argmin(distances, axis=0)
+    i, j = np.hstack([same, other])
+    damping = np.abs(1 - np.abs(both))
+    widths = damping[nearer, i] + damping[nearer, j]
+    hidden = angles * (angles + turns) < 0
+    hidden &= distances.min(axis=0) > RESONANT * np.maximum(widths, NARROWEST)
+    forced = (i == j) & (both[0, i].real > 0)
+    others = np.sort(widths[hidden & ~forced])[:MOST_TONGUES]
+    hidden &= forced | np.isin(widths, others)
+    shares = -angles[hidden] / turns[hidden]
+    return sorted(zip(shares.tolist(), forced[hidden].tolist(), strict=True))

@@ -15,65 +15,54 @@ resonance, and must lie where the step leads to expect it.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cached_property, lru_cache, partial
 from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
-from scipy.optimize import brentq
-from scipy.optimize import newton as root_by_secants
+from scipy.optimize import brentq, root_scalar
 
-from disc_model.arrays import Array, ComplexArray
+from disc_model.arrays import Array
 from disc_model.errors import Fault, ModeError, ParameterError
-from disc_model.parameters import DEFAULTS, Parameters
+from disc_model.parameters import Parameters
 from disc_model.simulation.states import State
 from disc_model.stability.continuation.curve import (
     DRIFT,
     FARTHEST,
     CurvePoint,
     Evaluation,
-    Guess,
-    Passing,
     Rejected,
     StepControl,
     check_step,
     curve_point,
     follow_curve,
     follow_multipliers,
+    hidden_resonances,
     interpolate,
     passes,
-    passings,
     predict,
-    solve,
-    turns_between,
 )
-from disc_model.stability.cycle import SLIPPING, find_cycle, multipliers
-from disc_model.stability.return_map import ENDS, PARAMETERS, Orbit, ReturnMap, SlippingMap
-
-# typical values of parameters whose value in Table 1 is missing or 0
-USUAL = {
-    "Omega": 20.0,
-    "N": 300.0,
-    "c": 0.5,
-    "c_p": 0.5,
-    "contact_compliance": 1e-8,
-    "contact_arc": 0.4,
-    "damping_ratio": 1e-3,
-    "friction_decay": 1.0,
-    "viscous_friction": 0.01,
-}
-SMALLEST = 0.2  # of a parameter's scale, over its typical value
-SMALLEST_OF_SPAN = 0.1  # of a parameter's scale, over the largest value of interest
-DIFFERENCE = 1e-5  # over a parameter's scale: orbits are accurate to 1e-13, their second derivatives of order one
-MAPS_AT_HAND = (
-    8  # of the cases last used: points between two others are computed before these are kept
+from disc_model.stability.cycle import SLIPPING, find_cycle
+from disc_model.stability.return_map import (
+    ENDS,
+    PARAMETERS,
+    Orbit,
+    ReturnMap,
+    SlippingMap,
+    newton_step,
+    rounding,
 )
 
-FASTEST_TURN = 1.2  # rad, of a multiplier within a step: its sense would be in doubt beyond pi
-RESONANT = 2.0  # distance from a resonance at which it shows, over its width
-NARROWEST = 1e-5  # width of a resonance of undamped multipliers, rad
-MOST_TONGUES = 6  # resonances within a step, but forced ones, that are looked at
+MOST_CORRECTIONS = 14  # of Newton's method with Broyden's updates, which takes 3 to 5
+SLOW = 0.3  # a correction that leaves more of the residual needs the derivative at its own point
+GOAL = 30  # residual of a point, over the tolerance of the map
+# the last correction of a point whose residual is limited by rounding; a residual that is as small
+# but no zero, as beside a narrow fold, leads to corrections a hundred times as large
+UNCERTAIN = 1e-7
+SMALLEST_OF_SPAN = 0.1  # of a parameter's scale, over the largest value within its bounds
+DIFFERENCE = 1e-6  # over a parameter's scale: orbits are accurate to 1e-13, their second derivatives of order one
+MAPS_AT_HAND = 8  # points between two others are computed before these are kept
 DEEPEST = 6  # points on one resonance, each where the former ones predict it
 PEAK = 0.01  # distance of such a point from where it is expected that shows a peak, over the step
 SMALLEST_PEAK = 1e-5  # the same, over the static deflection
@@ -83,8 +72,8 @@ SMALLEST_PEAK = 1e-5  # the same, over the static deflection
 CORNER = 1e-5
 PRECISION = 1e-9  # of the share of a step at which a point is located: what remains is its square
 MOST_BETWEEN = 500  # points of a branch from one value to another
-EVEN = 0.5  # least slope over the largest one, of a curve without folds between two points
-STEEP = 0.1  # slope of the tangent above which a step ends at a given parameter, so that one map serves it
+STEEP = 0.05  # slope of the tangent above which a step ends at a given parameter, so that one map serves it
+AT_BOUND = 1e-11  # distance from a bound that is rounding, over the parameter's scale
 
 FOLD = "fold"
 PERIOD_DOUBLING = "period_doubling"
@@ -96,12 +85,9 @@ CLOSED = "closed"
 HOPF = "hopf"
 LIMIT = "limit"
 LOST = "lost"
-ON_CIRCLE = 1e-6  # largest difference of a critical multiplier's modulus from one
-SAME_POINT = 1e-7  # distance of two computations of one point of a branch, over the deflection
 BESIDE_HOPF = 1e-3  # distance from a Hopf point within which no other special point is listed
-SAME_VALUE = 1e-12  # relative difference of two values of a parameter that count as one
-# arclengths beyond the last cycle, which is within the shortest step of a jump
-BEYOND = (1e-6, 1e-5, 1e-4)
+ON_CIRCLE = 1e-6  # largest difference of a critical multiplier's modulus from one
+BEYOND = 1e-4  # arclength beyond the last cycle, which is within the shortest step of a jump
 SAME_TIMES = 5e-3  # change of period and stick there, over the period, without another event
 STEEPEST = 1e4  # leading multiplier beside a grazing release, towards which it grows without bounds
 
@@ -114,76 +100,66 @@ NEAR_DOUBLING = 0.02  # distance from -1 of the multiplier from which a branch i
 BESIDE = 1e-6
 ROUNDING = 1e-12
 FARTHEST_DOUBLING = 0.2
-# distances of a branch's first cycle from the doubling, over the deflection: the branch may end nearer
-DEPARTURES = (5e-3, 1e-3, 2e-4)
+DEPARTURE = 1e-3  # distance of a branch's first cycle from the doubling, over the deflection
 
 
 # ---- The equations
 
 
-def parameter_scale(p: Parameters, name: str, farthest: float = 0.0) -> float:
-    """The change of a parameter that counts as one: its value, a fifth of a typical one, or a tenth
-    of the `farthest` value to which it is followed, whichever is most."""
-    value = abs(p.numbers[name])
-    usual = USUAL.get(name, DEFAULTS.get(name))
-    typical = 0.0
-    if isinstance(usual, float):
-        typical = SMALLEST * usual
-    return max(value, typical, SMALLEST_OF_SPAN * abs(farthest)) or 1.0
-
-
 class CycleProblem:
-    """F of the cycles of a case, in the free parameters `names`.
+    """F of the cycles of a kind of a case, in free parameters within the bounds of each.
 
-    Unknowns are z = (x / size, q / scales), with the norm of the static deflection as size. Cycles of
+    Unknowns are z = (x / size, q / scales), with the norm of the static deflection as size, and as
+    scale of a parameter its value, or a tenth of the largest one, if that is more. Cycles of
     a given number of `releases` may lose contact; those of 0 have one release in contact. Points x of
     the section are in the coordinates of the case `base`; those of another case differ from them
     where the disc's frequencies do.
+
+    bounds : least and largest scaled values of the parameters, (2, their number)
     """
 
     def __init__(
         self,
         base: Parameters,
-        names: Sequence[str],
-        scales: Sequence[float],
+        spans: Mapping[str, tuple[float, float]],
         tol: float,
         releases: int = 0,
-        make_map: Callable[..., Any] | None = None,
+        kind: str = "",
     ) -> None:
         self.base = base
-        self.names = tuple(names)
-        self.scales = np.array(scales)
+        self.spans = spans
+        self.names = tuple(spans)
+        own = np.abs([base.numbers[name] for name in spans])
+        ends = np.array(list(spans.values())).T
+        self.scales = np.maximum(own, SMALLEST_OF_SPAN * np.abs(ends).max(axis=0))
+        self.bounds = ends / self.scales
         self.tol = tol
         self.releases = releases
-        self.make_map = make_map or ReturnMap
-        self.reference = self.make_map(base, tol)
+        self._make_map = SlippingMap if kind == SLIPPING else ReturnMap
+        self.reference = self._make_map(base, tol)
         self.n = self.reference.size
         self.size = self.reference.deflection
-        self._differentiable = tuple(name for name in names if name in PARAMETERS)
+        self._differentiable = tuple(name for name in self.names if name in PARAMETERS)
         self._map_of = lru_cache(MAPS_AT_HAND)(self._new_map)
 
     def values(self, z: Array) -> Array:
         """The free parameters at a point."""
         return np.asarray(z[self.n :] * self.scales)
 
-    def case(self, z: Array) -> Parameters:
-        """The case at a point; raises `ParameterError` where there is none."""
-        return self._case_of(self.values(z).tolist())
-
-    def _case_of(self, values: Sequence[float]) -> Parameters:
-        return self.base.replace(**dict(zip(self.names, values, strict=True)))
-
-    def map_at(self, z: Array) -> Any:
+    def map_at(self, z: Array) -> ReturnMap:
         """The return map of the case at a point."""
         return self._map_of(*self.values(z).tolist())
 
-    def _new_map(self, *values: float) -> Any:
+    def case(self, z: Array) -> Parameters:
+        """The case at a point."""
+        return self.map_at(z).parameters
+
+    def _new_map(self, *values: float) -> ReturnMap:
         try:
-            p = self._case_of(values)
+            p = self.base.replace(**dict(zip(self.names, values, strict=True)))
             if min(p.Omega, p.N, p.k_p) <= 0:
                 raise Rejected("the drive, the preload or the in-plane spring vanishes")
-            patient = self.releases > 0
-            return self.make_map(p, self.tol, self._differentiable, patient=patient)
+            return self._make_map(p, self.tol, self._differentiable, patient=self.releases > 0)
         except (ParameterError, ModeError) as fault:
             raise Rejected(str(fault)) from None
 
@@ -221,35 +197,78 @@ class CycleProblem:
         turn = self.turn(z)
         jacobian = orbit.jacobian * turn[:, None] / turn[None, :]
         known = dict(zip(self._differentiable, orbit.by.T, strict=True))
-        changes = [
-            known[name] * turn / self.size * self.scales[i]
-            if name in known
-            else self._difference(z, residual, i)
-            for i, name in enumerate(self.names)
-        ]
-        by = np.column_stack([jacobian - np.eye(self.n), *changes])
-        if not np.isfinite([*by.T, residual]).all():
+        columns = [jacobian - np.eye(self.n)]
+        for i, name in enumerate(self.names):
+            if name in known:
+                columns.append(known[name] * turn / self.size * self.scales[i])
+            else:
+                columns.append(self._difference(z, residual, i))
+        by = np.column_stack(columns)
+        if not (np.isfinite(by).all() and np.isfinite(residual).all()):
             raise Rejected("the variational equations are singular: a switch is grazed")
         return Evaluation(residual, by, orbit, jacobian)
 
     def _difference(self, z: Array, here: Array, i: int) -> Array:
         """Derivative of F, which is `here` at z, by the i-th scaled parameter, by a difference of
-        orbits: on both sides of z, or on one at a limit of the parameter, such as 0."""
-        move = np.zeros(len(z))
-        move[self.n + i] = DIFFERENCE
-        sides = [side for side in (1, -1) if self._is_case(z + side * move)]
-        if len(sides) == 2:
-            return (self.residual(z + move) - self.residual(z - move)) / (2 * DIFFERENCE)
-        [side] = sides
-        return side * (self.residual(z + side * move) - here) / DIFFERENCE
+        orbits: above z or, at a limit of the parameter, below. No special point depends on it."""
+        beside = z.copy()
+        for side in (DIFFERENCE, -DIFFERENCE):
+            beside[self.n + i] = z[self.n + i] + side
+            try:
+                return (self.residual(beside) - here) / side
+            except Rejected:
+                continue
+        raise Rejected("there is no orbit beside it")
 
-    def _is_case(self, z: Array) -> bool:
-        """Whether the parameters of z are those of a case."""
-        try:
-            self.case(z)
-        except ParameterError:
-            return False
-        return True
+    def solve(self, guess: Array, by: Array, along: Array, radius: float = np.inf) -> CurvePoint:
+        """The point of the curve in the plane through `guess` normal to the unit vector `along`, by Newton's
+        method.
+
+        It starts with the derivative `by` of F at a point nearby, and improves it by Broyden's updates,
+        because F costs a tenth of its derivatives. The tangent makes an acute angle with the vector.
+        Raises `Rejected` if the iteration leaves a `radius` round the guess, or does not converge.
+        """
+        z = guess
+        matrix = np.vstack([by, along])
+        step: Array | None = None
+        last = np.inf
+        fresh = False  # whether the matrix is that at the former iterate
+        for _ in range(MOST_CORRECTIONS):
+            right = np.append(self.residual(z), along @ (z - guess))
+            error = float(np.linalg.norm(right))
+            if error <= GOAL * self.tol:
+                break
+
+            if step is not None and error > SLOW * last:
+                small = np.linalg.norm(step) <= UNCERTAIN
+                if fresh and small and error <= rounding(self.tol, 1e4):
+                    break
+                matrix = np.vstack([self.evaluate(z).by, along])
+                fresh = True
+            elif step is not None:
+                matrix = matrix + np.outer(right, step) / (step @ step)
+                fresh = False
+
+            last = error
+            step = -newton_step(matrix, right)
+            z = z + step
+            if not np.linalg.norm(z - guess) <= radius:
+                raise Rejected("the corrector moves too far")
+        else:
+            raise Rejected("Newton's method does not converge")
+
+        # one more correction, now with the derivatives at this point, which are needed anyhow
+        found = self.evaluate(z)
+        matrix = np.vstack([found.by, along])
+        z = z - newton_step(matrix, np.append(found.residual, along @ (z - guess)))
+        if not np.linalg.norm(z - guess) <= radius:  # as where two branches cross
+            raise Rejected("the corrector moves too far")
+        return curve_point(z, found, along)
+
+    def cycle_near(self, z: Array) -> CurvePoint:
+        """The cycle near a point, at its value of the one free parameter; raises `Rejected` if there is
+        none."""
+        return self.solve(z, self.evaluate(z).by, parameter_row(len(z), 1.0))
 
     def place(self, x: Array) -> Array:
         """z of a point of the section of the case `base`."""
@@ -262,8 +281,7 @@ class CycleProblem:
         diameters = self.reference.diameters
         if not len(diameters):
             return -1
-        largest = int(np.argmax(np.abs(point.spectrum.values)))
-        energy = np.abs(point.spectrum.right[: len(diameters), largest]) ** 2
+        energy = np.abs(point.spectrum.right[: len(diameters), 0]) ** 2
         return int(np.argmax(np.bincount(diameters, energy)))
 
     @cached_property
@@ -271,20 +289,19 @@ class CycleProblem:
         """The problem of cycles of half as many releases; None if these are no whole number."""
         if self.releases == 0 or self.releases % 2:
             return None
-        releases = self.releases // 2
-        return CycleProblem(self.base, self.names, self.scales.tolist(), self.tol, releases)
+        return CycleProblem(self.base, self.spans, self.tol, self.releases // 2)
 
 
 def first_cycle(
     p: Parameters,
     name: str,
-    farthest: float,
+    bounds: tuple[float, float],
     tol: float,
     guess: State | None = None,
     releases: int = 1,
     kind: str = "",
 ) -> tuple[CycleProblem, CurvePoint]:
-    """The problem of the cycles of a kind in a free parameter up to its `farthest` value, and the cycle
+    """The problem of the cycles of a kind in a free parameter within bounds, and the cycle
     of the case `p`, from which they are followed: a point of the curve in one parameter, which rises
     along the tangent. Other arguments are those of `disc_model.floquet`.
 
@@ -296,34 +313,10 @@ def first_cycle(
         hint = f"start from another value of {name}, or give another guess"
         rule = f"must have a cycle, but the search ended with {cycle.message}; {hint}"
         raise ParameterError(Fault(("guess" if may_separate else "case",), "", rule))
-    order = 0
-    if may_separate:
-        order = cycle.releases
-    section = SlippingMap if kind == SLIPPING else None
-    problem = CycleProblem(p, [name], [parameter_scale(p, name, farthest)], tol, order, section)
+    order = cycle.releases if may_separate else 0
+    problem = CycleProblem(p, {name: bounds}, tol, order, kind)
     z = problem.place(problem.reference.point(cycle.state))
-    return problem, curve_point(*cycle_at_value(problem, z), parameter_row(len(z), 1.0))
-
-
-def cycle_at_value(problem: CycleProblem, z: Array) -> tuple[Array, Evaluation]:
-    """The cycle near a point, at its value of the one free parameter; raises `Rejected` if there is
-    none."""
-    row = parameter_row(len(z), 1.0)
-    matrix = np.vstack([problem.evaluate(z).by, row])
-    return solve(problem, z, row[None, :], matrix)
-
-
-def leading(point: CurvePoint) -> complex:
-    """The multiplier of largest modulus; 0 on a section of a single point."""
-    values = point.spectrum.values
-    if values.size:
-        return complex(values[np.argmax(np.abs(values))])
-    return 0j
-
-
-def nearest(values: ComplexArray, wanted: complex) -> complex:
-    """The one of some values that is nearest to a wanted one."""
-    return complex(values[np.argmin(np.abs(values - wanted))])
+    return problem, problem.cycle_near(z)
 
 
 def parameter_row(width: int, sense: float) -> Array:
@@ -334,17 +327,12 @@ def parameter_row(width: int, sense: float) -> Array:
     return row
 
 
-def margin(value: float) -> float:
-    """Largest difference of scaled values that count as equal."""
-    return SAME_VALUE * max(1.0, abs(value))
-
-
 # ---- Points along a branch
 
 
 class Entry(NamedTuple):
-    """A point along a branch or, if it has a kind, a special one between two of these, with its
-    critical multiplier; and what is kept of it."""
+    """A point along a branch; a special one has a kind, and its critical multiplier. And what is kept
+    of it."""
 
     point: CurvePoint
     kind: str = ""
@@ -353,7 +341,7 @@ class Entry(NamedTuple):
 
 
 class Course(NamedTuple):
-    """The points of a branch, special ones between them, and why it ends, in a word: at its first
+    """The points of a branch, special ones among them, and why it ends, in a word: at its first
     point, if it was followed both ways, and at its last."""
 
     entries: list[Entry]
@@ -362,28 +350,27 @@ class Course(NamedTuple):
 
 
 class Tracer:
-    """The way of a branch of a problem in one parameter, between the bounds of a span. It keeps of each point
-    along the branch what `keep` makes of it, while the map of its case is still at hand."""
+    """The way of a branch of a problem in one parameter, within its bounds. It keeps of each point along
+    the branch what `keep` makes of it, while the map of its case is still at hand."""
 
     def __init__(
         self,
         problem: CycleProblem,
         steps: StepControl,
-        span: tuple[float, float],
         keep: Callable[[CurvePoint], Any] = lambda _: None,
     ) -> None:
         self.problem = problem
         self.steps = steps
-        self.low, self.high = (bound / problem.scales[0] for bound in span)
+        self.low, self.high = problem.bounds[:, 0].tolist()
         self.keep = keep
 
     def follow(self, start: CurvePoint, direction: int = 0) -> Course:
         """The branch from a point on: both ways, or with rising (1) or falling (-1) values alone; one
         way from a period doubling, at which the branch of twice the period begins."""
-        departure = leave_doubling(self.problem, start)
-        if departure is not None:
-            entries, last = self._one_way(departure)
-            doubling = self._entry(start, PERIOD_DOUBLING, 1.0 + 0j)
+        half = self.problem.half
+        if half is not None and np.linalg.norm(half.residual(start.z)) <= SAME_HALVES:
+            entries, last = self._one_way(leave_doubling(self.problem, half, start))
+            doubling = self._kept(Entry(start, PERIOD_DOUBLING, 1.0 + 0j))
             return Course([doubling, *entries], PERIOD_DOUBLING, last)
         if direction:
             entries, last = self._one_way(start if direction > 0 else start.reversed())
@@ -392,83 +379,65 @@ class Tracer:
         if first == CLOSED:
             return Course(back, "", first)
         entries, last = self._one_way(start)
-        behind = [each._replace(point=each.point.reversed()) for each in reversed(back)]
-        return Course([*behind, *entries[1:]], first, last)
+        if entries[0].kind:  # a special point at which it starts
+            back[0] = entries[0]
+        return Course([*reversed(back), *entries[1:]], first, last)
 
-    def _entry(self, point: CurvePoint, kind: str = "", multiplier: complex = 0j) -> Entry:
-        return Entry(point, kind, multiplier, self.keep(point))
+    def _kept(self, entry: Entry) -> Entry:
+        return entry._replace(kept=self.keep(entry.point))
 
     def _one_way(self, start: CurvePoint) -> tuple[list[Entry], str]:
         """The branch from a point along its tangent, and why it ends."""
-        entries = [self._entry(start)]
+        entries = [self._kept(Entry(start))]
         end = self._bound_at(start)
         if not end:
             watch = partial(self._take, entries)
             points, why = follow_curve(start, self._advance, self.steps, watch)
-            if isinstance(why, Rejected):
-                why = _loss(self.problem, points[-1], why)
-            end = why
-        if end == HOPF:
-            last = entries[-1].point.z
-            entries = [
-                each
-                for each in entries
-                if not each.kind or np.linalg.norm(each.point.z - last) > BESIDE_HOPF
-            ]
+            end = why if isinstance(why, str) else _loss(self.problem, points[-1], why)
+            if end == HOPF:  # at which the curve turns, as at a fold
+                last = points[-1].z
+                entries = [
+                    each
+                    for each in entries
+                    if not each.kind or np.linalg.norm(each.point.z - last) > BESIDE_HOPF
+                ]
         return entries, end
 
     def _take(self, entries: list[Entry], points: list[CurvePoint]) -> str:
         """Take the last of some points, with the special ones before it, as far as the branch goes;
         the word for its end, if it is there."""
         before, new = points[-2:]
-        end = ""
-        if len(points) > 3 and self._closes(before, new, points[0]):
+        end = self._bound_at(new)
+        if len(points) > 3 and passes(before, new, points[0]):
             new = points[0]
             end = CLOSED
-        elif comes_to_doubling(self.problem, before, new):
-            doubling = locate_doubling(self.problem, before)
-            if doubling is not None:
-                entries.append(self._entry(doubling))
-            return PERIOD_DOUBLING
         try:
+            if comes_to_doubling(self.problem, before, new):
+                entries.append(self._kept(Entry(locate_doubling(self.problem, before))))
+                return PERIOD_DOUBLING
             found = special_between(self, before, new)
         except Rejected:
             return LOST
-        for point, kind, multiplier in found:
-            bound = min(max(point.value, self.low), self.high)
-            if kind == FOLD and point.value != bound and not self.steps.beyond:
-                at_bound = self.locate(before, point, partial(_excess_over, bound))
+        for each in found:
+            bound = min(max(each.point.value, self.low), self.high)
+            if each.kind == FOLD and each.point.value != bound:
+                at_bound = self.locate(before, each.point, partial(_excess_over, bound))
                 if at_bound is not None:
-                    entries.append(self._entry(at_bound))
+                    entries.append(self._kept(Entry(at_bound)))
                 return BOUND
-            entries.append(self._entry(point, kind, multiplier))
-        entries.append(self._entry(new))
-        return end or self._bound_at(new)
+            if each.point is before:
+                entries[-1] = each._replace(kept=entries[-1].kept)
+            else:
+                entries.append(self._kept(each))
+        entries.append(self._kept(Entry(new)))
+        return end
 
     def _bound_at(self, point: CurvePoint) -> str:
-        """The end of the branch at a point that is at a bound, on the way out, or beyond it; else
-        ""."""
-        if self.steps.beyond:
-            leaves = not self.low <= point.value <= self.high
-        else:
-            below = point.slope < 0 and point.value <= self.low + margin(self.low)
-            leaves = below or (point.slope > 0 and point.value >= self.high - margin(self.high))
-        if leaves:
+        """The end of the branch at a point that is at a bound, on the way out; else ""."""
+        below = point.slope < 0 and point.value <= self.low + AT_BOUND
+        if below or (point.slope > 0 and point.value >= self.high - AT_BOUND):
             return BOUND
         return ""
-
-    def _closes(self, before: CurvePoint, after: CurvePoint, known: CurvePoint) -> bool:
-        """Whether the curve between two neighbours passes through a known point in its sense."""
-        share = passes(before, after, known, PEAK)
-        if share is None or float(known.tangent @ (after.z - before.z)) < 0:
-            return False
-        try:
-            there = self._between(before, after, share)
-        except Rejected:
-            return False
-        away = there.z - known.z
-        across = away - (away @ there.tangent) * there.tangent
-        return float(np.linalg.norm(across)) < SAME_POINT
 
     # ---- Steps, which end at the bounds where they would pass them, and points between two neighbours
 
@@ -476,18 +445,17 @@ class Tracer:
         """The points of a step of arclength ds beyond the last of some, resonances within it
         included; raises `Rejected` if a shorter step is needed."""
         current = points[-1]
-        former = points[-2] if len(points) > 1 else None
-        guess = predict(former, current, ds)
+        guess, by = predict(points, ds)
         row = _plane(current.tangent)
-        value = float(guess.z[-1])
-        bound = value if self.steps.beyond else min(max(value, self.low), self.high)
+        value = float(guess[-1])
+        bound = min(max(value, self.low), self.high)
         if bound != value:
             ds *= (bound - current.value) / (value - current.value)
-            guess = predict(former, current, ds)
-            guess.z[-1] = bound
+            guess, by = predict(points, ds)
+            guess[-1] = bound
             row = parameter_row(len(row), current.slope)
-        ahead = self._solve(guess, current.tangent, row, FARTHEST * ds)
-        if ds > CORNER and np.linalg.norm(ahead.z - guess.z) > DRIFT * ds:
+        ahead = self.problem.solve(guess, by, row, FARTHEST * ds)
+        if ds > CORNER and np.linalg.norm(ahead.z - guess) > DRIFT * ds:
             raise Rejected("the corrector moves far")
         _check(current, ahead)
         return [*self._resonances(current, ahead, DEEPEST), ahead]
@@ -495,20 +463,16 @@ class Tracer:
     def _resonances(self, before: CurvePoint, after: CurvePoint, deepest: int) -> list[CurvePoint]:
         """Points on the resonances between two neighbours; raises `Rejected` where one shows a peak
         of the branch, or a forced one cannot be located."""
-        between = turns_between(before.spectrum, after.spectrum)
-        if np.abs(between.turns).max(initial=0.0) > FASTEST_TURN:
-            raise Rejected("a multiplier turns too fast")
-        unseen = _unseen(passings(between))
-        if not unseen:
+        hidden = hidden_resonances(before.spectrum, after.spectrum)
+        if deepest == 0 and any(forced for _, forced in hidden):
+            raise Rejected("a resonance cannot be located")
+        if deepest == 0 or not hidden:
             return []
-        if deepest == 0:
-            if any(each.forced for each in unseen):
-                raise Rejected("a resonance cannot be located")
-            return []
-        expected = interpolate(before, after, unseen[0].share)
+        share, _ = hidden[0]
+        expected, by = interpolate(before, after, share)
         length = float(np.linalg.norm(after.z - before.z))
-        there = self._solve(expected, before.tangent, _plane(before.tangent), FARTHEST * length)
-        if np.linalg.norm(there.z - expected.z) > max(PEAK * length, SMALLEST_PEAK):
+        there = self.problem.solve(expected, by, _plane(before.tangent), FARTHEST * length)
+        if np.linalg.norm(there.z - expected) > max(PEAK * length, SMALLEST_PEAK):
             raise Rejected("the branch has a peak within the step")
         _check(before, there)
         _check(there, after)
@@ -541,18 +505,10 @@ class Tracer:
     def _between(self, before: CurvePoint, after: CurvePoint, share: float) -> CurvePoint:
         """The point of the curve at a share of the way between two neighbours."""
         chord = after.z - before.z
-        radius = max(FARTHEST * float(np.linalg.norm(chord)), 1e-6)
-        row = _plane_between(before, after)
-        return self._solve(interpolate(before, after, share), chord, row, radius)
-
-    def _solve(self, guess: Guess, along: Array, row: Array, radius: float) -> CurvePoint:
-        """The point of the curve in the plane through a guess, in the sense of a vector."""
-        matrix = np.vstack([guess.by, row])
-        z, found = solve(self.problem, guess.z, row[None, :], matrix, radius)
-        point = curve_point(z, found, row)
-        if float(point.tangent @ along) >= 0:
-            return point
-        return point.reversed()
+        length = float(np.linalg.norm(chord))
+        row = _plane(chord / length, before.tangent, after.tangent)
+        guess, by = interpolate(before, after, share)
+        return self.problem.solve(guess, by, row, max(FARTHEST * length, 1e-6))
 
 
 def follow_between(
@@ -560,12 +516,10 @@ def follow_between(
 ) -> tuple[CycleProblem, Course]:
     """The branch of the cycle near the static start from one value of a parameter towards another, in
     steps up to the `longest`; errors are those of `first_cycle`."""
-    span = (min(begin, end), max(begin, end))
-    case = p.replace(**{name: begin})
-    problem, start = first_cycle(case, name, max(map(abs, span)), tol)
+    bounds = (min(begin, end), max(begin, end))
+    problem, start = first_cycle(p.replace(**{name: begin}), name, bounds, tol)
     steps = StepControl(longest=longest, max_points=MOST_BETWEEN)
-    tracer = Tracer(problem, steps, span)
-    return problem, tracer.follow(start, direction=int(np.sign(end - begin)))
+    return problem, Tracer(problem, steps).follow(start, direction=int(np.sign(end - begin)))
 
 
 def _excess_over(bound: float, point: CurvePoint) -> float:
@@ -585,34 +539,14 @@ def _check(before: CurvePoint, after: CurvePoint) -> None:
         raise Rejected("the order of events changes")
 
 
-def _plane(tangent: Array) -> Array:
-    """Normal of the plane in which a step ends: that of a fixed parameter where the curve is not
-    steep, because a map of new parameters costs more than an orbit."""
-    if abs(tangent[-1]) < STEEP:
-        return tangent
-    return parameter_row(len(tangent), float(tangent[-1]))
-
-
-def _plane_between(before: CurvePoint, after: CurvePoint) -> Array:
-    """Normal of the planes in which points between two neighbours lie: that of a fixed parameter
-    where the curve is steep all the way, and that of the chord elsewhere, as round a fold."""
-    chord = after.z - before.z
-    along = chord / np.linalg.norm(chord)
-    slopes = float(np.sign(along[-1])) * np.array([before.slope, along[-1], after.slope])
-    if slopes.min() > max(STEEP, EVEN * slopes.max()):
-        return parameter_row(len(along), float(along[-1]))
-    return np.asarray(along, dtype=float)
-
-
-def _unseen(passed: list[Passing]) -> list[Passing]:
-    """Those resonances within a step that neither of its ends is near enough to show: all forced
-    ones and, of the others, those of the least damped multipliers."""
-    hidden = [each for each in passed if each.distance > RESONANT * max(each.width, NARROWEST)]
-    others = sorted(each.width for each in hidden if not each.forced)
-    widest = np.inf
-    if len(others) > MOST_TONGUES:
-        widest = others[MOST_TONGUES - 1]
-    return [each for each in hidden if each.forced or each.width <= widest]
+def _plane(along: Array, *beside: Array) -> Array:
+    """Normal of the plane in which a point is sought, some way along a unit vector: that of a fixed
+    parameter where the curve is steep, by this vector and others, because a map of new parameters
+    costs more than an orbit."""
+    sense = float(np.sign(along[-1]))
+    if min(sense * each[-1] for each in (along, *beside)) < STEEP:
+        return along
+    return parameter_row(len(along), sense)
 
 
 def _loss(problem: CycleProblem, last: CurvePoint, rejected: Rejected) -> str:
@@ -624,16 +558,13 @@ def _loss(problem: CycleProblem, last: CurvePoint, rejected: Rejected) -> str:
     if str(rejected) == "vanished":  # of cycles that slip all the time
         return HOPF
     cycle = last.orbit
-    for distance in BEYOND:
-        try:
-            motion = problem.follow(last.z + distance * last.tangent, tangent=False)
-        except Rejected:
-            return LIMIT
-        moved = abs(motion.period - cycle.period) + abs(motion.stick_time - cycle.stick_time)
-        same = motion.returned and motion.counts == cycle.counts
-        if not same or moved > SAME_TIMES * cycle.period:
-            return GRAZING
-    if abs(leading(last)) > STEEPEST:
+    try:
+        motion = problem.follow(last.z + BEYOND * last.tangent, tangent=False)
+    except Rejected:
+        return LIMIT
+    moved = abs(motion.period - cycle.period) + abs(motion.stick_time - cycle.stick_time)
+    same = motion.returned and motion.counts == cycle.counts
+    if not same or moved > SAME_TIMES * cycle.period or abs(last.leading) > STEEPEST:
         return GRAZING
     return LOST
 
@@ -641,46 +572,43 @@ def _loss(problem: CycleProblem, last: CurvePoint, rejected: Rejected) -> str:
 # ---- Special points: a test function changes sign between two points, and its root is located
 
 
-Special = tuple[CurvePoint, str, complex]
-"""A special point of a kind, with its critical multiplier."""
-
-
-def special_between(tracer: Tracer, before: CurvePoint, after: CurvePoint) -> list[Special]:
+def special_between(tracer: Tracer, before: CurvePoint, after: CurvePoint) -> list[Entry]:
     """The special points between two neighbours of a branch, in their order; raises `Rejected` if a
     fold between them cannot be computed."""
-    found = list(_found_between(tracer, before, after))
-    return sorted(found, key=lambda each: float((each[0].z - before.z) @ before.tangent))
-
-
-def _found_between(tracer: Tracer, before: CurvePoint, after: CurvePoint) -> Iterator[Special]:
-    """The special points between two neighbours."""
     if after.orbit.counts != before.orbit.counts:
-        yield before, GRAZING, leading(before)
-        return
+        return [Entry(before, GRAZING, before.leading)]
+    found = []
     knots = [before, after]
     if before.slope * after.slope < 0:
         fold = tracer.locate(before, after, lambda point: point.slope)
         if fold is None:
             raise Rejected("a fold cannot be located")
         knots.insert(1, fold)
-        yield fold, FOLD, 1.0 + 0j
+        found.append(Entry(fold, FOLD, 1.0 + 0j))
     elif before.orientation != after.orientation:
-        yield before, BRANCH_POINT, 1.0 + 0j
-    if _doubling_test(before) * _doubling_test(after) < 0:
-        doubled = tracer.locate(before, after, _doubling_test)
-        if doubled is not None:
-            critical = nearest(doubled.spectrum.values, -1.0)
-            if abs(critical + 1) < ON_CIRCLE:
-                yield doubled, PERIOD_DOUBLING, critical
+        found.append(Entry(before, BRANCH_POINT, 1.0 + 0j))
+
+    located = [(PERIOD_DOUBLING, tracer.locate(before, after, _doubling_test))]
     # a pair that crosses the circle before a fold often is two real multipliers at the fold
     for first, last in pairwise(knots):
-        for pair in _crossing_pairs(first, last):
-            point = tracer.locate(first, last, partial(_excess, *pair))
-            if point is None:
-                continue
-            critical, _ = _followed(*pair, point)
-            if abs(abs(critical) - 1) < ON_CIRCLE and critical.imag != 0:
-                yield point, NEIMARK_SACKER, complex(critical.real, abs(critical.imag))
+        for test in _pair_tests(first, last):
+            located.append((NEIMARK_SACKER, tracer.locate(first, last, test)))
+    for kind, point in located:
+        if point is not None:
+            values = point.spectrum.values
+            critical = complex(values[np.argmin(np.abs(np.abs(values) - 1))])
+            if _kind_at(critical) == kind and abs(abs(critical) - 1) < ON_CIRCLE:
+                found.append(Entry(point, kind, complex(critical.real, abs(critical.imag))))
+    return sorted(found, key=lambda each: float((each.point.z - before.z) @ before.tangent))
+
+
+def _kind_at(multiplier: complex) -> str:
+    """Kind of bifurcation where a multiplier crosses the unit circle."""
+    if multiplier.imag != 0:
+        return NEIMARK_SACKER
+    if multiplier.real > 0:
+        return FOLD
+    return PERIOD_DOUBLING
 
 
 def _doubling_test(point: CurvePoint) -> float:
@@ -690,34 +618,24 @@ def _doubling_test(point: CurvePoint) -> float:
     return float(np.prod(factors / np.maximum(np.abs(factors), 1.0)).real)
 
 
-def _crossing_pairs(before: CurvePoint, after: CurvePoint) -> Iterator[tuple[CurvePoint, int]]:
-    """The pairs of multipliers, each as a point and the number of one there, that are complex at one
-    of two neighbours at least, and may have crossed the unit circle at the other."""
+def _pair_tests(before: CurvePoint, after: CurvePoint) -> Iterator[Callable[[CurvePoint], float]]:
+    """Test functions of the pairs of multipliers that are complex at one of two neighbours at least, and
+    may have crossed the unit circle at the other."""
     successors = follow_multipliers(before.spectrum, after.spectrum)
     first = before.spectrum.values
     last = after.spectrum.values[successors]
     crosses = (np.abs(first) - 1) * (np.abs(last) - 1) < 0
     parts = (first.imag > 0) & ((last.imag == 0) | crosses)
     meets = (first.imag == 0) & (last.imag > 0)
-    yield from ((before, int(i)) for i in np.flatnonzero(parts))
-    yield from ((after, int(j)) for j in successors[meets])
-
-
-def _followed(start: CurvePoint, i: int, point: CurvePoint) -> tuple[complex, complex]:
-    """The multipliers of a point that continue the i-th one of another, of a positive imaginary part,
-    and the next, which is its conjugate."""
-    successors = follow_multipliers(start.spectrum, point.spectrum)[[i, i + 1]]
-    first, second = point.spectrum.values[successors].tolist()
-    return first, second
+    yield from (partial(_excess, before, i) for i in np.flatnonzero(parts).tolist())
+    yield from (partial(_excess, after, j) for j in successors[meets].tolist())
 
 
 def _excess(start: CurvePoint, i: int, point: CurvePoint) -> float:
-    """By how much the modulus of the i-th multiplier exceeds one at a point; the mean modulus where
-    the pair has become two real ones."""
-    first, second = _followed(start, i, point)
-    if first.imag != 0:
-        return abs(first) - 1
-    return abs(first * second) ** 0.5 - 1
+    """By how much the product of a pair exceeds one at a point: the i-th multiplier of another one, and
+    the next, which is its conjugate there, though they may have become two real ones."""
+    successors = follow_multipliers(start.spectrum, point.spectrum)[[i, i + 1]]
+    return float(abs(np.prod(point.spectrum.values[successors]))) - 1
 
 
 # ---- Period doublings seen from the cycle of twice the period. A cycle of an even number of
@@ -728,20 +646,18 @@ def _excess(start: CurvePoint, i: int, point: CurvePoint) -> float:
 def comes_to_doubling(problem: CycleProblem, before: CurvePoint, after: CurvePoint) -> bool:
     """Whether a branch of cycles of an even number of releases comes to a period doubling at the
     second of two neighbours: both are the same cycles, half a period apart, or the second one hardly
-    differs from itself half a period later."""
+    differs from itself half a period later; raises `Rejected` if a half does not return."""
     if problem.half is None:
         return False
-    try:
-        first, second = (problem.half.residual(each.z) for each in (before, after))
-    except Rejected:
-        return False
+    first = problem.half.residual(before.z)
+    second = problem.half.residual(after.z)
     nearly = np.linalg.norm(second) < min(SAME_HALVES, float(np.linalg.norm(first)))
     return float(first @ second) < 0 or bool(nearly)
 
 
-def locate_doubling(problem: CycleProblem, near: CurvePoint) -> CurvePoint | None:
+def locate_doubling(problem: CycleProblem, near: CurvePoint) -> CurvePoint:
     """The period doubling beside a cycle of twice the period, where that of half the releases has the
-    multiplier -1; None if it is not found.
+    multiplier -1; raises `Rejected` if it is not found.
 
     The shorter cycle is regular there, while F of the longer one has a double zero.
     """
@@ -755,48 +671,40 @@ def locate_doubling(problem: CycleProblem, near: CurvePoint) -> CurvePoint | Non
         then the shorter cycle there."""
         nonlocal z
         z[-1] = value
-        z, found = cycle_at_value(half, z)
-        return nearest(multipliers(found.jacobian), -1.0).real + 1
+        shorter = half.cycle_near(z)
+        z = shorter.z
+        return float(shorter.spectrum.values[nearest_to_doubling(shorter)].real) + 1
 
-    try:
-        value = root_by_secants(excess, near.value, x1=near.value + BESIDE, tol=ROUNDING)
-        excess(value)
-        found = problem.evaluate(z)
-    except (Rejected, RuntimeError):  # which scipy raises where a search does not converge
-        return None
-    if np.linalg.norm(z - near.z) > FARTHEST_DOUBLING:
-        return None
-    return curve_point(z, found, near.tangent)
+    found = root_scalar(excess, x0=near.value, x1=near.value + BESIDE, xtol=ROUNDING)
+    excess(found.root)
+    if not found.converged or np.linalg.norm(z - near.z) > FARTHEST_DOUBLING:
+        raise Rejected("the period doubling cannot be located")
+    return curve_point(z, problem.evaluate(z), near.tangent)
 
 
-def leave_doubling(problem: CycleProblem, start: CurvePoint) -> CurvePoint | None:
+def nearest_to_doubling(point: CurvePoint) -> int:
+    """The number of the multiplier that is nearest to -1."""
+    return int(np.argmin(np.abs(point.spectrum.values + 1)))
+
+
+def leave_doubling(problem: CycleProblem, half: CycleProblem, start: CurvePoint) -> CurvePoint:
     """The first cycle of a branch that begins at a period doubling, near a cycle of half as many
-    releases, with the tangent away from it; None if the start is no such cycle.
+    releases, with the tangent away from it.
 
-    Raises `ParameterError` if the start is one of half as many releases, and not at a doubling.
+    Raises `ParameterError` if the start is not at a doubling, or no longer cycle is found.
     """
-    half = problem.half
-    if half is None or np.linalg.norm(half.residual(start.z)) > SAME_HALVES:
-        return None
     # at a doubling the longer cycle is a double solution, which its search misses by some 1e-4
-    z, shorter = cycle_at_value(half, start.z)
-    values, vectors = np.linalg.eig(shorter.jacobian)
-    critical = int(np.argmin(np.abs(values + 1)))
-    if abs(values[critical] + 1) > NEAR_DOUBLING:
+    shorter = half.cycle_near(start.z)
+    critical = nearest_to_doubling(shorter)
+    if abs(shorter.spectrum.values[critical] + 1) > NEAR_DOUBLING:
         rule = f"must be {half.releases}: the cycle at this state repeats after half as many"
         raise ParameterError(Fault(("releases",), str(problem.releases), rule))
 
-    # along the eigenvector, and across the branch of half the period, on which the plane has no cycle
-    away = np.append(np.real(vectors[:, critical]), 0.0)
+    # along the eigenvector, in a plane normal to it, in which the shorter cycle is far away
+    away = np.append(np.real(shorter.spectrum.right[:, critical]), 0.0)
     away /= np.linalg.norm(away)
-    along = np.linalg.svd(shorter.by)[2][-1]
-    row = away - (away @ along) * along
-    row /= np.linalg.norm(row)
-    for distance in DEPARTURES:
-        guess = z + distance * away
-        try:
-            matrix = np.vstack([problem.evaluate(guess).by, row])
-            return curve_point(*solve(problem, guess, row[None, :], matrix, distance), row)
-        except Rejected:
-            continue
-    raise ParameterError("no cycle of twice the period is near the period doubling")
+    guess = shorter.z + DEPARTURE * away
+    try:
+        return problem.solve(guess, problem.evaluate(guess).by, away, DEPARTURE)
+    except Rejected:
+        raise ParameterError("no cycle of twice the period is near the doubling") from None

@@ -154,7 +154,7 @@ class Family:
             return
         # leaves room for special points between those computed: as a step turns by 26 degrees at most, at least six
         # lie from fold to fold; with other bifurcations there is one among nine to eighteen points
-        steps = StepControl(longest=LONGEST, max_points=5 * MOST_POINTS // 6, beyond=True)
+        steps = StepControl(longest=LONGEST, max_points=5 * MOST_POINTS // 6)
         try:
             branch = continue_cycle(case, self.name, self.ends, steps=steps, **how)
         except NUMERICAL:
@@ -164,17 +164,15 @@ class Family:
 
 
 def _stretches(branch: Branch, releases: int) -> list[Row]:
-    """A branch with the special points at which its stability may change among its points: a row for each
-    stretch with one number of separations in a period. A stretch begins at the last point of the one before,
-    to which it is joined."""
+    """The stretches of a branch with one number of separations in a period, a row for each. A stretch begins
+    at the last point of the one before, to which it is joined."""
     columns = {
-        "value": branch.refined(branch.name),
-        "period": branch.refined("period"),
-        "growth_rate": branch.refined("growth_rate"),
-        "range": branch.refined("range"),
+        "value": branch.values,
+        "period": branch.period,
+        "growth_rate": branch.growth_rate,
+        "range": branch.range,
     }
-    # no special point but a grazing lies where the number of separations changes
-    separations = branch.refined("separations")
+    separations = branch.separations
     rows = []
     ends = [0, *(np.flatnonzero(np.diff(separations)) + 1), len(separations)]
     for first, end in pairwise(ends):
