@@ -320,15 +320,16 @@ def draw_spectrogram(ax: Axes, level: DataArray, highest: float) -> Any:
 # ---- The whole disc
 
 
-def draw_disc(ax: Any, w: DataArray, norm: Any) -> Any:
+def draw_disc(ax: Any, w: DataArray, norm: Any, levels: Any = ()) -> Any:
     """Draw the disc from above on polar axes: blue below its plane at rest, where lines of equal
     deflection are dashed, and red above it. Returns the mesh, for a bar.
 
     w : deflection over r (m) and theta (rad), in the unit of `norm`
+    levels : of these lines; if not given, twelfths of the scale
     """
     grid = w["theta"], w["r"]
     mesh = ax.pcolormesh(*grid, w, cmap=cm.vik, norm=norm, shading="gouraud", rasterized=True)
-    levels = np.linspace(norm.vmin, norm.vmax, 13)
+    levels = levels or np.linspace(norm.vmin, norm.vmax, 13)
     ax.contour(*grid, w, levels, colors=BLACK, linewidths=0.5)
     ax.set(ylim=(0, w["r"].max()), yticks=[], xticks=[0], xticklabels=["θ = 0"])
     return mesh
