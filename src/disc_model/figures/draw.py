@@ -49,6 +49,7 @@ LINEAR_RATE = 0.1  # up to which an axis of growth rates is linear, 1/s
 TICKS_OF_RATES = np.array([-1, -1 / 3, -0.1, 0, 0.1, 1 / 3, 1])  # over the end of the scale
 MOST_MARKS = 12  # on one line of several
 NO_LOOKS: dict[str, Look] = {}
+Place = tuple[float, float, float, float]
 SIDES = ("right", "left")  # of lines, for their names
 NOTE: Options = {"textcoords": "offset points", "fontsize": 7}
 # places of crosses, share of a panel
@@ -213,7 +214,7 @@ def class_map(ax: Axes, flag: DataArray, looks: Mapping[str, Look] = NO_LOOKS) -
     frame(ax, flag)
 
 
-def strip(ax: Axes, flag: DataArray, place: Sequence[float] = (0, 0, 1, 1)) -> None:
+def strip(ax: Axes, flag: DataArray, place: Place = (0, 0, 1, 1)) -> None:
     """Paint words along the horizontal axis behind a panel, or over a part of it, and nothing where
     they are "".
 

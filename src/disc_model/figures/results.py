@@ -12,7 +12,6 @@ from typing import Annotated, Any
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.transforms import Bbox
 from pydantic import AfterValidator, Field
 from xarray import DataArray, Dataset, DataTree
 
@@ -20,15 +19,7 @@ from disc_model.data.dataset import Missing
 from disc_model.disc.plate import mode_arrays, mode_shapes, radial_range
 from disc_model.errors import Fault, ParameterError, raise_faults, require, suggestion
 from disc_model.figures import runs, stability
-from disc_model.figures.draw import (
-    bar_of,
-    break_label,
-    colours_of,
-    entries,
-    explain,
-    shares,
-    wished,
-)
+from disc_model.figures.draw import bar_of, break_label, colours_of, entries, explain, shares
 from disc_model.figures.modes import draw_campbell
 from disc_model.figures.schema import known_units
 from disc_model.figures.shown import label, shown, shown_case
@@ -154,9 +145,9 @@ def modes(case: Any, most: Any) -> Any:
     theta = np.linspace(0, 2 * np.pi, 181)
     shapes = mode_shapes(case, r)
     for ax, i in zip(axes.flat, np.argsort(known.omega)[:count], strict=False):
-        w = np.outer(shapes[i], np.cos(known.diameters[i] * theta))
-        end = 1.6 * float(np.abs(w).max())  # so that lines stay visible
-        w = DataArray(w, {"r": r, "theta": theta}, ("r", "theta"))
+        values = np.outer(shapes[i], np.cos(known.diameters[i] * theta))
+        w = DataArray(values, {"r": r, "theta": theta}, ("r", "theta"))
+        end = 1.6 * float(abs(w).max())  # so that lines stay visible
         runs.draw_disc(ax, w, plt.Normalize(-end, end), [0])
         ax.plot(0, case.r_0, "o", ms=3.5)
         frequency = known.omega[i] / (2 * np.pi)
@@ -233,15 +224,8 @@ def spectrum(
     given = Wishes(highest=highest, units=units)
     samples = window_of(shown_case(case, given.units), name, variable=variable)
     ax = axes_for(ax)
-    before = len(ax.lines)
-    limits = ax.viewLim.frozen()
     with refused("window", name):
-        runs.draw_spectrum(ax, samples, variable, given.highest)
-    for line in ax.lines[before:]:
-        line.set(**wished(look, color=f"C{before}"))
-    if before:
-        whole = Bbox.union([limits, ax.viewLim])
-        ax.set(xlim=whole.intervalx, ylim=whole.intervaly)
+        runs.draw_spectrum(ax, samples, variable, given.highest, **look)
     return explained(ax)
 
 

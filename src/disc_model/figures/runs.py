@@ -250,11 +250,13 @@ def spectrum(
     highest : highest frequency shown, Hz; without it up to where the lines end
     """
     figure, axes = panels([["a"]], COLUMN, 2.4)
-    draw_spectrum(axes["a"], window_of(case, window), variable, highest)
+    draw_spectrum(axes["a"], window_of(case, window), variable, highest, color=BLACK)
     return figure
 
 
-def draw_spectrum(ax: Axes, samples: Dataset, variable: str, highest: float | None = None) -> None:
+def draw_spectrum(
+    ax: Axes, samples: Dataset, variable: str, highest: float | None = None, **look: Any
+) -> None:
     """Draw amplitudes up to a frequency (Hz), or to where the lines end, with the frequencies of the
     strongest; raises `Missing` if there are none."""
     x = samples[variable]
@@ -265,21 +267,11 @@ def draw_spectrum(ax: Axes, samples: Dataset, variable: str, highest: float | No
     end = highest or 1.15 * found[-1].frequency
     apart = lines(*signal, below=end, apart=end / 12)
     for line in sorted(apart, key=itemgetter(1))[-5:]:
-        ax.text(
-            *line,
-            f"{line.frequency:.1f}",
-            horizontalalignment="center",
-            verticalalignment="bottom",
-            fontsize=6,
-        )
-    ax.semilogy(*amplitude_spectrum(*signal), color=BLACK)
+        ax.text(*line, f"{line.frequency:.1f}", ha="center", va="bottom", fontsize=6)
+    ax.semilogy(*amplitude_spectrum(*signal), **look)
     x.attrs["long_name"] += ", amplitude"
-    ax.set(
-        xlim=(0, end),
-        ylim=(1e-5 * line.amplitude, 4 * line.amplitude),
-        xlabel="Frequency (Hz)",
-        ylabel=label(x),
-    )
+    ax.set(xlabel="Frequency (Hz)", ylabel=label(x))
+    ax.set(xlim=(0, end), ylim=(1e-5 * line.amplitude, 4 * line.amplitude))
 
 
 def levels_of(windows: Sequence[Dataset], variable: str) -> list[DataArray]:

@@ -291,7 +291,9 @@ class CasePlot(Kind):
             none = f"no such case (known: {', '.join(cases) or 'none'})"
             yield case in cases, "case", case, none
             recorded = cases.get(case)
-            for key, name, wanted in windows if recorded is not None else ():
+            if recorded is None:
+                continue
+            for key, name, wanted in windows:
                 rule = f"is not recorded by case {case}{suggestion(name, recorded)}"
                 if name in recorded:
                     rule = wanted.broken(recorded[name])
@@ -326,7 +328,8 @@ def kind_of_function(function: Function, name: str) -> type[Kind]:
         fields[key] = (hint, ... if default is parameter.empty else default)
     base: Any = Plot if first.name == "study" else CasePlot
     doc = inspect.getdoc(function)
-    model: Any = create_model(name, __base__=base, __doc__=doc, __module__=__name__, **fields)
+    created = create_model(name, __base__=base, __doc__=doc, __module__=__name__, **fields)
+    model = cast(Any, created)
     model.function = staticmethod(function)
     model.shows = vars(function)["shows"]
     model.keys = [*fields][1:]
