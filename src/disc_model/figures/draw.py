@@ -224,6 +224,7 @@ def strip(ax: Axes, flag: DataArray, place: Place = (0, 0, 1, 1)) -> None:
     inside = ax.inset_axes(place, sharex=ax, zorder=0)
     class_map(inside, flag.expand_dims(row=[0.0]))
     inside.set_axis_off()
+    ax.autoscale(axis="x")  # not only to the words
 
 
 def number_map(ax: Axes, x: DataArray, missing: DataArray | None = None, **colours: Any) -> Any:
