@@ -141,7 +141,7 @@ def _common_coordinates(
     coords: dict[Any, xr.Variable] = {}
     differing = {}
     for result in results:
-        for name in result.dims & result.coords.keys():
+        for name in result.indexes:  # in a fixed order: files are equal to the byte
             own = result.variables[name]
             if not own.equals(coords.setdefault(name, own)):
                 differing[name] = f"{name}_index"
