@@ -203,6 +203,12 @@ def cells(ax: Axes, plane: DataArray, mask: Any, look: Look) -> None:
 
 
 def class_map(ax: Axes, flag: DataArray, looks: Mapping[str, Look] = NO_LOOKS) -> None:
+    """A map of words, with its labels and limits, see `paint`."""
+    paint(ax, flag, looks)
+    frame(ax, flag)
+
+
+def paint(ax: Axes, flag: DataArray, looks: Mapping[str, Look] = NO_LOOKS) -> None:
     """Paint each cell in the look of its word, and none where that is "".
 
     flag : words, shape (up, across)
@@ -211,7 +217,6 @@ def class_map(ax: Axes, flag: DataArray, looks: Mapping[str, Look] = NO_LOOKS) -
     said = words(flag)
     for word, look in looks_of(said[said != ""]).items():
         cells(ax, flag, said == word, looks.get(word, look))
-    frame(ax, flag)
 
 
 def strip(ax: Axes, flag: DataArray, place: Place = (0, 0, 1, 1)) -> None:
@@ -222,9 +227,9 @@ def strip(ax: Axes, flag: DataArray, place: Place = (0, 0, 1, 1)) -> None:
     place : left, lower end, width and height, shares of the panel
     """
     inside = ax.inset_axes(place, sharex=ax, zorder=0)
-    class_map(inside, flag.expand_dims(row=[0.0]))
+    paint(inside, flag.expand_dims(row=[0.0]))
+    inside.set_ylim(-1, 1)
     inside.set_axis_off()
-    ax.autoscale(axis="x")  # not only to the words
 
 
 def number_map(ax: Axes, x: DataArray, missing: DataArray | None = None, **colours: Any) -> Any:
