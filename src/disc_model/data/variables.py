@@ -341,12 +341,12 @@ def values_text(
             continue
         shown = SHOWN.get(name) or Shown(name, name, unit_of_parameter(name))
         unit, factor = units.get(name, (shown.unit, shown.factor))
-        texts.append(f"{shown.symbol or name} = {_number_text(value, unit, factor)}")
+        texts.append(f"{shown.symbol or name} = {with_unit(value, unit, factor)}")
     return ", ".join(texts)
 
 
-def _number_text(value: Any, unit: str, factor: float) -> str:
-    """A value of a parameter in a unit, whose power of ten stands at the number; a word as it is."""
+def with_unit(value: Any, unit: str, factor: float = 1.0) -> str:
+    """A value in SI units in another unit, whose power of ten stands at the number; a word as it is."""
     if not isinstance(value, float | int):
         return str(value)
     if not value:

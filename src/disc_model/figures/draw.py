@@ -5,7 +5,7 @@ What they draw is `shown`. Each artist has its name as its label, and a legend i
 """
 
 import logging
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from contextlib import AbstractContextManager
 from itertools import cycle
 from pathlib import Path as File
@@ -27,9 +27,10 @@ from matplotlib.patches import PathPatch
 from matplotlib.path import Path
 from matplotlib.ticker import LogLocator
 from matplotlib.transforms import Bbox
-from numpy.typing import NDArray
+from numpy.lib.stride_tricks import sliding_window_view
 from xarray import DataArray, Dataset
 
+from disc_model.arrays import Array
 from disc_model.figures.looks import BLACK, GREY, LOOKS, UNRESOLVED, Look, Options, looks_of
 from disc_model.figures.shown import label, value_text, words
 
@@ -48,6 +49,7 @@ LINEAR_RATE = 0.1  # up to which an axis of growth rates is linear, 1/s
 TICKS_OF_RATES = np.array([-1, -1 / 3, -0.1, 0, 0.1, 1 / 3, 1])  # over the end of the scale
 MOST_MARKS = 12  # on one line of several
 NO_LOOKS: dict[str, Look] = {}
+Place = tuple[float, float, float, float]
 SIDES = ("right", "left")  # of lines, for their names
 NOTE: Options = {"textcoords": "offset points", "fontsize": 7}
 # places of crosses, share of a panel
@@ -99,23 +101,29 @@ def break_label(ax: Axes, height: float) -> None:
     ax.set_ylabel(fill(ax.get_ylabel(), int(13 * height)))
 
 
-def explain(figure: Any, axes: Sequence[Axes], letters: float = LETTERS_PER_INCH) -> None:
+def entries(axes: Iterable[Axes]) -> Options:
+    """What has a label on axes, by its label: the first of each."""
+    found: Options = {}
+    for ax in axes:
+        insets = [each for each in ax.child_axes if isinstance(each, Axes)]
+        for each in (ax, *insets):
+            for handle, text in zip(*each.get_legend_handles_labels(), strict=True):
+                found.setdefault(fill(text, 42), handle)
+    return found
+
+
+def explain(figure: Any, axes: Iterable[Axes], letters: float = LETTERS_PER_INCH) -> None:
     """A legend below the panels, with an entry for each label, and room for it.
 
     letters : of the legend in an inch
     """
-    handles: Options = {}
-    insets = [each for ax in axes for each in ax.child_axes if isinstance(each, Axes)]
-    for ax in (*axes, *insets):
-        for handle, text in zip(*ax.get_legend_handles_labels(), strict=True):
-            handles.setdefault(fill(text, 42), handle)
+    handles = entries(axes)
     if not handles:
         return
     texts = "\n".join(handles).split("\n")
     room = letters * figure.get_figwidth() / (6 + max(map(len, texts)))
     columns = int(np.clip(room, 1, min(4, len(handles))))
-    rows = -(-len(texts) // columns)
-    figure.set_figheight(figure.get_figheight() + LINE_HEIGHT * rows)
+    figure.set_figheight(figure.get_figheight() + LINE_HEIGHT * -(-len(texts) // columns))
     below = "outside lower center"
     legend = figure.legend(handles.values(), handles.keys(), loc=below, ncols=columns)
     for sample in legend.get_patches():
@@ -157,7 +165,7 @@ def compare(axes: Sequence[Axes]) -> None:
 # ---- Maps
 
 
-def is_geometric(values: NDArray[Any]) -> bool:
+def is_geometric(values: Array) -> bool:
     """Whether three or more positive values, over a decade or more, have equal ratios, but for a few
     extra ones."""
     if values.size < 3 or values.min() <= 0 or values.max() < 9.99 * values.min():
@@ -174,7 +182,7 @@ def edges(x: DataArray) -> Any:
     return _between(values)
 
 
-def _between(values: NDArray[np.float64]) -> Any:
+def _between(values: Array) -> Any:
     """Middles between values, and ends as far outside as these are inside."""
     if values.size == 1:
         return values + (0.05 * np.abs(values) or 1.0) * np.array([-1, 1])
@@ -195,6 +203,12 @@ def cells(ax: Axes, plane: DataArray, mask: Any, look: Look) -> None:
 
 
 def class_map(ax: Axes, flag: DataArray, looks: Mapping[str, Look] = NO_LOOKS) -> None:
+    """A map of words, with its labels and limits, see `paint`."""
+    paint(ax, flag, looks)
+    frame(ax, flag)
+
+
+def paint(ax: Axes, flag: DataArray, looks: Mapping[str, Look] = NO_LOOKS) -> None:
     """Paint each cell in the look of its word, and none where that is "".
 
     flag : words, shape (up, across)
@@ -203,24 +217,19 @@ def class_map(ax: Axes, flag: DataArray, looks: Mapping[str, Look] = NO_LOOKS) -
     said = words(flag)
     for word, look in looks_of(said[said != ""]).items():
         cells(ax, flag, said == word, looks.get(word, look))
-    frame(ax, flag)
 
 
-def strip(ax: Axes, flag: DataArray) -> None:
-    """Paint words along the horizontal axis over the height of a panel, and nothing where they are "".
+def strip(ax: Axes, flag: DataArray, place: Place = (0, 0, 1, 1)) -> None:
+    """Paint words along the horizontal axis behind a panel, or over a part of it, and nothing where
+    they are "".
 
     flag : words, shape (x,)
+    place : left, lower end, width and height, shares of the panel
     """
-    said = words(flag)
-    sides = edges(flag[str(flag.dims[0])])
-    x = np.repeat(sides, 2)[1:-1]
-    place = ax.get_xaxis_transform()
-    for word, look in looks_of(said[said != ""]).items():
-        here = np.repeat(said == word, 2)
-        paint = look.paint
-        if not look.hatch:
-            paint["ec"] = GREY  # white ones are seen
-        ax.fill_between(x, 0, 1, here, transform=place, zorder=0, lw=0.4, **paint)
+    inside = ax.inset_axes(place, sharex=ax, zorder=0)
+    paint(inside, flag.expand_dims(row=[0.0]))
+    inside.set_ylim(-1, 1)
+    inside.set_axis_off()
 
 
 def number_map(ax: Axes, x: DataArray, missing: DataArray | None = None, **colours: Any) -> Any:
@@ -260,10 +269,9 @@ def lone_cells(flag: DataArray) -> DataArray:
 
 def around(area: DataArray) -> DataArray:
     """An area of a map with the cells beside it, without parts that are one cell wide."""
-    from scipy.ndimage import binary_dilation, binary_opening
-
-    wide = binary_opening(np.pad(area, 1, mode="edge"), np.ones((2, 2)))[1:-1, 1:-1]
-    return area.copy(data=binary_dilation(wide, np.ones((3, 3))))
+    blocks = sliding_window_view(np.pad(area, 1, mode="edge"), (2, 2)).all((-2, -1))
+    near = sliding_window_view(np.pad(blocks, 1), (4, 4)).any((-2, -1))
+    return area.copy(data=near)
 
 
 def unresolved(ax: Axes, flag: DataArray) -> None:
@@ -295,7 +303,7 @@ def usual_colours(x: DataArray) -> Options:
     return {"cmap": cm.batlow, "norm": Normalize(low, high)}
 
 
-def finite_of(x: DataArray) -> NDArray[np.float64]:
+def finite_of(x: DataArray) -> Array:
     """The finite numbers of an array, shape (n,)."""
     values = x.values.astype(float)
     return values[np.isfinite(values)]
@@ -358,13 +366,6 @@ def scale(axis: Any, x: DataArray) -> None:
 # ---- Lines and points
 
 
-def once(ax: Axes, text: str) -> str:
-    """A label, or none if something on the axes has it already."""
-    if text in ax.get_legend_handles_labels()[1]:
-        return "_nolegend_"
-    return text
-
-
 def wished(look: Mapping[str, Any], **usual: Any) -> Options:
     """Options of a line: usual ones, and in their place a reader's, by any name that matplotlib has
     for them."""
@@ -376,7 +377,7 @@ def is_words(x: DataArray) -> bool:
     return x.dtype.kind in "OUST"
 
 
-def places(axis: Any, x: DataArray) -> NDArray[np.float64]:
+def places(axis: Any, x: DataArray) -> Array:
     """The places of numbers, or of words, along an axis; nan for ""."""
     if not is_words(x):
         return x.values.astype(float)
@@ -442,7 +443,7 @@ def opened(x: Any, y: Any, jump: float) -> Any:
     return np.insert(x, breaks, np.nan), np.insert(finite, breaks, np.nan)
 
 
-def one_line(x: DataArray, y: DataArray) -> list[NDArray[np.float64]]:
+def one_line(x: DataArray, y: DataArray) -> list[Array]:
     """Several lines as one that is open between them, which is drawn faster.
 
     x, y : shape (line, point); `x` may have the same dimensions in another order, or less
@@ -462,7 +463,7 @@ def mark_points(ax: Axes, x: Any, y: Any, name: str, **look: Any) -> None:
     places = across.reshape(across.shape + (1,) * (heights.ndim - across.ndim))
     known = np.isfinite(heights)
     if known.any():
-        own = wished(look, label=once(ax, name), linestyle="", markerfacecolor="white", zorder=3)
+        own = wished(look, label=name, linestyle="", markerfacecolor="white", zorder=3)
         ax.plot(np.broadcast_to(places, heights.shape)[known], heights[known], **own)
 
 

@@ -79,15 +79,12 @@ LOOKS = {
     "none": Look("none", "#ffffff", "--"),
 }
 FURTHER_COLOURS = ("#56b4e9", "#e69f00", "#117755", "#cc79a7", "#332288", "#ddcc77", "#882255")
-FURTHER_HATCHES = ("", "|||", "---", "\\\\\\", "+++")
 
 
 def looks_of(words: Iterable[str]) -> dict[str, Look]:
-    """Looks of words in the order of the table; those that are not in it have further colours and
-    patterns."""
-    further = zip(cycle(FURTHER_COLOURS), cycle(FURTHER_HATCHES), strict=False)
-    places = {word: i for i, word in enumerate(LOOKS)}
-    looks = {}
-    for word in sorted(set(words), key=lambda word: (places.get(word, len(places)), word)):
-        looks[word] = LOOKS.get(word) or Look(word.replace("_", " "), *next(further))
+    """Looks of words in the order of the table; those that are not in it have further colours."""
+    found = {*words}
+    looks = {word: look for word, look in LOOKS.items() if word in found}
+    for word, colour in zip(sorted(found - {*LOOKS}), cycle(FURTHER_COLOURS), strict=False):
+        looks[word] = Look(word.replace("_", " "), colour)
     return looks

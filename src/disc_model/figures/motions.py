@@ -19,7 +19,6 @@ from disc_model.figures.draw import (
     lines,
     mark_missing,
     mark_points,
-    once,
     panels,
     rate_axis,
     shares,
@@ -92,9 +91,7 @@ def _samples(ax: Axes, study: Dataset, x: str) -> None:
         )
         mark_points(ax, study[x], here.where(few), doubt, color=GREY, marker=marker, mew=0.5)
     ax.margins(y=0.12)  # room for the classes
-    above = ax.inset_axes((0, 0.93, 1, 0.07), sharex=ax)
-    strip(above, study["kind"])
-    above.set_axis_off()
+    strip(ax, study["kind"], (0, 0.93, 1, 0.07))
     ax.set_ylabel(label(psi))
 
 
@@ -153,7 +150,7 @@ def _branch(ax: Axes, x: DataArray, y: DataArray, rate: DataArray, name: str, co
 
     rate : growth rate of disturbances, 0 where stability changes
     """
-    ax.plot(x, y, color=colour, label=once(ax, f"{name}: unstable"))
+    ax.plot(x, y, color=colour, label=f"{name}: unstable")
     thicken(ax, x, y, stable_between(rate.values), f"{name}: stable", color=colour)
 
 

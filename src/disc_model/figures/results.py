@@ -10,16 +10,16 @@ from contextlib import contextmanager
 from typing import Annotated, Any
 
 import matplotlib.pyplot as plt
+import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.transforms import Bbox
 from pydantic import AfterValidator, Field
-from xarray import Dataset, DataTree
+from xarray import DataArray, Dataset, DataTree
 
 from disc_model.data.dataset import Missing
-from disc_model.disc.plate import mode_arrays, radial_range
+from disc_model.disc.plate import mode_arrays, mode_shapes, radial_range
 from disc_model.errors import Fault, ParameterError, require, suggestion
 from disc_model.figures import runs, stability
-from disc_model.figures.draw import bar_of, break_label, colours_of, explain, shares, wished
+from disc_model.figures.draw import bar_of, break_label, colours_of, entries, explain, shares
 from disc_model.figures.modes import draw_campbell
 from disc_model.figures.schema import known_units
 from disc_model.figures.shown import label, shown, shown_case
@@ -49,6 +49,7 @@ USUAL = (
 the first of others."""
 CLASSES = "attractor_class"  # dimension along which shares of starts add up to one
 ROW = 1.4  # height of a row of histories, inch
+EDGE = 0.02  # share of a disc's width beside its clamped edge, which is no nodal line
 LETTERS = 12.0  # per inch, of a legend in matplotlib's own style
 
 
@@ -81,8 +82,8 @@ def explained(ax: Axes, below: bool = False) -> Axes:
     break_label(ax, 3)
     if below:
         explain(ax.figure, [ax], LETTERS)
-    elif ax.get_legend_handles_labels()[1]:
-        ax.legend()
+    elif handles := entries([ax]):
+        ax.legend(handles.values(), handles.keys())
     return ax
 
 
@@ -130,19 +131,29 @@ def campbell(study: Any, highest: Any, multiples: Any, units: Any) -> Any:
 
 
 def modes(case: Any, most: Any) -> Any:
-    """Draw the shapes of modes, as `disc_model.plot_modes` describes."""
+    """Draw the shapes of modes, as `disc_model.plot_modes` describes: from above, with the slider."""
     require_case(case)
-    radial_range(case)  # raises an error without shapes
-    count = min(Wishes(most=most).most, len(mode_arrays(case).omega))
+    inner, outer = radial_range(case)  # raises an error without shapes
+    known = mode_arrays(case)
+    count = min(Wishes(most=most).most, known.omega.size)
     require((count > 0, "n_diameters", case.n_diameters, "must be >= 0 for modes"))
-    columns = min(count, 5)
-    rows = -(-count // columns)
-    size = (2 * columns, 2.2 * rows)
+    shape = (-(-count // 5), min(count, 5))
+    size = (2 * shape[1], 2.2 * shape[0])
     options: Any = {"squeeze": False, "subplot_kw": {"projection": "polar"}}
-    _, axes = plt.subplots(rows, columns, figsize=size, layout="constrained", **options)
+    _, axes = plt.subplots(*shape, figsize=size, layout="constrained", **options)
+    r = np.linspace(inner + EDGE * (outer - inner), outer, 25)
+    theta = np.linspace(0, 2 * np.pi, 181)
+    shapes = mode_shapes(case, r)
+    for ax, i in zip(axes.flat, np.argsort(known.omega)[:count], strict=False):
+        values = np.outer(shapes[i], np.cos(known.diameters[i] * theta))
+        w = DataArray(values, {"r": r, "theta": theta}, ("r", "theta"))
+        end = 1.6 * float(abs(w).max())  # so that lines stay visible
+        runs.draw_disc(ax, w, plt.Normalize(-end, end), [0])
+        ax.plot(0, case.r_0, "o", ms=3.5)
+        frequency = known.omega[i] / (2 * np.pi)
+        ax.set_title(f"({known.diameters[i]}, {known.circles[i]})  {frequency:.0f} Hz")
     for spare in axes.flat[count:]:
         spare.set_axis_off()
-    stability.draw_modes(axes.flat[:count], case)
     return axes.ravel()
 
 
@@ -213,15 +224,8 @@ def spectrum(
     given = Wishes(highest=highest, units=units)
     samples = window_of(shown_case(case, given.units), name, variable=variable)
     ax = axes_for(ax)
-    before = len(ax.lines)
-    limits = ax.viewLim.frozen()
     with refused("window", name):
-        runs.draw_spectrum(ax, samples, variable, given.highest)
-    for line in ax.lines[before:]:
-        line.set(**wished(look, color=f"C{before}"))
-    if before:
-        whole = Bbox.union([limits, ax.viewLim])
-        ax.set(xlim=whole.intervalx, ylim=whole.intervaly)
+        runs.draw_spectrum(ax, samples, variable, given.highest, **look)
     return explained(ax)
 
 

@@ -252,11 +252,13 @@ def spectrum(
     highest : highest frequency shown, Hz; without it up to where the lines end
     """
     figure, axes = panels([["a"]], COLUMN, 2.4)
-    draw_spectrum(axes["a"], window_of(case, window), variable, highest)
+    draw_spectrum(axes["a"], window_of(case, window), variable, highest, color=BLACK)
     return figure
 
 
-def draw_spectrum(ax: Axes, samples: Dataset, variable: str, highest: float | None = None) -> None:
+def draw_spectrum(
+    ax: Axes, samples: Dataset, variable: str, highest: float | None = None, **look: Any
+) -> None:
     """Draw amplitudes up to a frequency (Hz), or to where the lines end, with the frequencies of the
     strongest; raises `Missing` if there are none."""
     x = samples[variable]
@@ -267,21 +269,11 @@ def draw_spectrum(ax: Axes, samples: Dataset, variable: str, highest: float | No
     end = highest or 1.15 * found[-1].frequency
     apart = lines(*signal, below=end, apart=end / 12)
     for line in sorted(apart, key=itemgetter(1))[-5:]:
-        ax.text(
-            *line,
-            f"{line.frequency:.1f}",
-            horizontalalignment="center",
-            verticalalignment="bottom",
-            fontsize=6,
-        )
-    ax.semilogy(*amplitude_spectrum(*signal), color=BLACK)
+        ax.text(*line, f"{line.frequency:.1f}", ha="center", va="bottom", fontsize=6)
+    ax.semilogy(*amplitude_spectrum(*signal), **look)
     x.attrs["long_name"] += ", amplitude"
-    ax.set(
-        xlim=(0, end),
-        ylim=(1e-5 * line.amplitude, 4 * line.amplitude),
-        xlabel="Frequency (Hz)",
-        ylabel=label(x),
-    )
+    ax.set(xlabel="Frequency (Hz)", ylabel=label(x))
+    ax.set(xlim=(0, end), ylim=(1e-5 * line.amplitude, 4 * line.amplitude))
 
 
 def levels_of(windows: Sequence[Dataset], variable: str) -> list[DataArray]:
@@ -322,15 +314,16 @@ def draw_spectrogram(ax: Axes, level: DataArray, highest: float) -> Any:
 # ---- The whole disc
 
 
-def draw_disc(ax: Any, w: DataArray, norm: Any) -> Any:
+def draw_disc(ax: Any, w: DataArray, norm: Any, levels: Any = ()) -> Any:
     """Draw the disc from above on polar axes: blue below its plane at rest, where lines of equal
     deflection are dashed, and red above it. Returns the mesh, for a bar.
 
     w : deflection over r (m) and theta (rad), in the unit of `norm`
+    levels : of these lines; if not given, twelfths of the scale
     """
     grid = w["theta"], w["r"]
     mesh = ax.pcolormesh(*grid, w, cmap=cm.vik, norm=norm, shading="gouraud", rasterized=True)
-    levels = np.linspace(norm.vmin, norm.vmax, 13)
+    levels = levels or np.linspace(norm.vmin, norm.vmax, 13)
     ax.contour(*grid, w, levels, colors=BLACK, linewidths=0.5)
     ax.set(ylim=(0, w["r"].max()), yticks=[], xticks=[0], xticklabels=["θ = 0"])
     return mesh

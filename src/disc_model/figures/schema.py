@@ -6,12 +6,12 @@ the keys of a figure in a study file.
 
 import inspect
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Annotated, Any, ClassVar, Literal, NamedTuple, cast, get_type_hints
 
 from pydantic import AfterValidator, Field, create_model
 
-from disc_model.errors import as_text, require, suggestion, violations
+from disc_model.errors import Fault, as_text, require, suggestion, violations
 from disc_model.figures.looks import Options
 from disc_model.figures.shown import key_of, si_unit
 from disc_model.simulation.case import Window
@@ -201,68 +201,59 @@ class Plot(Kind):
         own = dims
         name = getattr(self, "variable", None)
         if name is not None:
-            rule = f"unknown variable{suggestion(name, variables)}"
-            faults = violations((name in variables, "variable", name, rule))
-            if faults:
-                return faults
+            if name not in variables:
+                return [
+                    Fault.of(("variable",), name, f"unknown variable{suggestion(name, variables)}")
+                ]
             own = variables[name]
-        faults = self._wrong_axes(own) or self._wrong_rest(own)
-        for role, wanted in self.roles.items():
-            given = role in self.overlays or not wanted.required
-            rule = f"is required: a study of the quantity {wanted.quantity}"
-            faults += violations((given, f"overlays.{role}", "", rule))
-        for role, study in self.overlays.items():
-            rule = f"unknown role{suggestion(role, self.roles)}"
-            faults += violations((role in self.roles, f"overlays.{role}", study, rule))
-        return faults
+        faults = violations(*self._rules_of_axes(own)) or violations(*self._rules_of_rest(own))
+        return [*faults, *violations(*self._rules_of_overlays())]
 
-    def _wrong_axes(self, own: Values) -> list[Any]:
-        """Dimensions that the study lacks, or that cannot be axes."""
-        faults: list[Any] = []
+    def _rules_of_axes(self, own: Values) -> Iterator[Any]:
+        """That the study has the dimensions that the figure names, and that these can be axes."""
         taken: list[str] = []
         for key, name in (*(("kind", name) for name in self.shows.needs), *self.axes.items()):
             along = own.get(name, ())
             number = not any(isinstance(x, str | tuple) or x == math.inf for x in along)
             lacking = f"needs the dimension {name}{suggestion(name, own)}"
+            finite = "must be one parameter, and a number that is finite"
             many = f"has {len(along)} values, and there is room for {MOST_VALUES}"
-            faults += violations(
-                (name in {NORM, *own}, key, name, lacking),
-                (name not in taken, key, name, "must differ from the other dimensions"),
-                (
-                    number or key not in ("x", "y"),
-                    key,
-                    name,
-                    "must be one parameter, and a number that is finite",
-                ),
-                (len(along) <= MOST_VALUES or key != "by", key, name, many),
-            )
+            yield name in {NORM, *own}, key, name, lacking
+            yield name not in taken, key, name, "must differ from the other dimensions"
+            yield number or key not in ("x", "y"), key, name, finite
+            yield len(along) <= MOST_VALUES or key != "by", key, name, many
             taken.append(name)
         named = [*own.get(self.axes.get("by", ""), ())]
         for value in self.names if named else ():
-            known = value in map(key_of, named)
-            faults += violations((known, "names", value, f"must be one of {as_text(named)}"))
-        return faults
+            rule = f"must be one of {as_text(named)}"
+            yield value in map(key_of, named), "names", value, rule
 
-    def _wrong_rest(self, own: Values) -> list[Any]:
-        """Dimensions that are left over must have one value, or be chosen by `at` or `by`."""
+    def _rules_of_rest(self, own: Values) -> Iterator[Any]:
+        """That dimensions that are left over have one value, or are chosen by `at` or `by`."""
         taken = {*self.axes.values(), *self.shows.needs}
         free = {name: along for name, along in own.items() if name not in taken}
-        faults: list[Any] = []
         for name, value in self.at.items():
             values = [*free.get(name, ())]
             known = not values or key_of(value) in map(key_of, values)
             none = f"is no dimension that remains{suggestion(name, free)}"
-            faults += violations(
-                (name in free, f"at.{name}", value, none),
-                (known, f"at.{name}", value, f"must be one of {as_text(values)}"),
-            )
+            yield name in free, f"at.{name}", value, none
+            yield known, f"at.{name}", value, f"must be one of {as_text(values)}"
         for name, along in free.items():
             chosen = len(along) < 2 or name in self.at or self.shows.takes
-            rule = f"is required, one of {as_text([*along])}" + f"; or by: {name}" * (
-                "by" in self.keys
-            )
-            faults += violations((chosen, f"at.{name}", "", rule))
-        return faults
+            rule = f"is required, one of {as_text([*along])}"
+            if "by" in self.keys:
+                rule += f"; or by: {name}"
+            yield chosen, f"at.{name}", "", rule
+
+    def _rules_of_overlays(self) -> Iterator[Any]:
+        """That further studies are those that the figure takes."""
+        for role, wanted in self.roles.items():
+            given = role in self.overlays or not wanted.required
+            rule = f"is required: a study of the quantity {wanted.quantity}"
+            yield given, f"overlays.{role}", "", rule
+        for role, study in self.overlays.items():
+            rule = f"unknown role{suggestion(role, self.roles)}"
+            yield role in self.roles, f"overlays.{role}", study, rule
 
 
 class CasePlot(Kind):
@@ -288,21 +279,23 @@ class CasePlot(Kind):
     def faults(self, cases: Mapping[str, Any]) -> list[Any]:
         """What keeps it from being drawn, by the windows of each case; those of a case that has faults
         of its own are None."""
+        return violations(*self._rules(cases))
+
+    def _rules(self, cases: Mapping[str, Any]) -> Iterator[Any]:
+        """That each case is known, and has recorded the windows that the figure shows."""
         windows = [(key, getattr(self, key), rule) for key, rule in self.rules.items()]
         windows += [("case", name, rule) for name, rule in self.shows.windows.items()]
-        none = f"no such case (known: {', '.join(cases) or 'none'})"
-        faults: list[Any] = []
         for case in self.cases:
+            none = f"no such case (known: {', '.join(cases) or 'none'})"
+            yield case in cases, "case", case, none
             recorded = cases.get(case)
             if recorded is None:
-                faults += violations((case in cases, "case", case, none))
                 continue
             for key, name, wanted in windows:
                 rule = f"is not recorded by case {case}{suggestion(name, recorded)}"
                 if name in recorded:
                     rule = wanted.broken(recorded[name])
-                faults += violations((not rule, key, name, rule))
-        return faults
+                yield not rule, key, name, rule
 
 
 # ---- From signatures to models
@@ -318,7 +311,7 @@ def kind_of_function(function: Function, name: str) -> type[Kind]:
     further = []
     for parameter in parameters:
         key = parameter.name
-        hint = hints[parameter.name]
+        hint = hints[key]
         default = parameter.default
         mark = next(iter(getattr(hint, "__metadata__", ())), None)
         if isinstance(mark, Role):

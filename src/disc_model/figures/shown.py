@@ -9,7 +9,7 @@ import numpy as np
 from xarray import DataArray, Dataset, DataTree
 
 from disc_model.data.dataset import Missing
-from disc_model.data.variables import SERIES, SHOWN, flag_names, ranged_variable, typeset
+from disc_model.data.variables import SERIES, SHOWN, flag_names, ranged_variable, typeset, with_unit
 from disc_model.data.variables import attributes as attributes_in_files
 from disc_model.parameters import Parameters
 from disc_model.units import size_of_unit
@@ -167,7 +167,7 @@ def value_text(x: DataArray) -> str:
     if known:
         symbol = SHOWN[known].symbol or SHOWN[known].name
     stated = key_of(value / x.attrs.get("factor", 1.0))  # as a study file has it
-    text = f"{typeset(symbol)} = {with_unit(f'{value:.5g}', x.attrs.get('units', ''))}"
+    text = f"{typeset(symbol)} = {with_unit(value, x.attrs.get('units', ''))}"
     return names.get(stated, text)
 
 
@@ -177,15 +177,8 @@ def _word_text(name: str, word: str) -> str:
         return IN_WORDS.get(word, word.replace("_", " "))
     own = SHOWN[name]
     with suppress(ValueError):
-        word = with_unit(f"{float(word) * own.factor:.5g}", own.unit)
+        word = with_unit(float(word), own.unit, own.factor)
     return f"{typeset(own.symbol or own.name)} = {word}"
-
-
-def with_unit(number: str, unit: str) -> str:
-    """A number with its unit, which may begin with a power of ten."""
-    if unit.startswith("10"):
-        return f"{number}·{unit}"
-    return f"{number} {unit}".strip()
 
 
 def key_of(value: Any) -> str:

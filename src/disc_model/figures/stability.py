@@ -1,29 +1,18 @@
-"""Pictures of stability: branches, multipliers, eigenvalues, exponents, critical values, neutral
-curves, and shapes of modes."""
+"""Pictures of stability: branches, multipliers, eigenvalues, exponents, critical values and neutral
+curves."""
 
-from collections.abc import Iterable
 from textwrap import fill
 from typing import Any
 
 import numpy as np
-from cmcrameri import cm
 from matplotlib.axes import Axes
 from matplotlib.patches import Circle
-from numpy.typing import NDArray
 from xarray import DataArray, Dataset
 
+from disc_model.arrays import Array, Mask
 from disc_model.data.variables import OF_RESULTS, attributes, typeset, values_text
-from disc_model.disc.plate import mode_arrays, mode_shapes, radial_range
-from disc_model.figures.draw import (
-    BELOW_ANY,
-    lines,
-    mark_missing,
-    mark_points,
-    once,
-    rate_axis,
-    wished,
-)
-from disc_model.figures.looks import BLACK, GREY, ORANGE, RED, Options
+from disc_model.figures.draw import BELOW_ANY, lines, mark_missing, mark_points, rate_axis, wished
+from disc_model.figures.looks import BLACK, GREY, RED
 from disc_model.figures.shown import label, placed, shown
 from disc_model.parameters import Parameters
 
@@ -32,7 +21,6 @@ from disc_model.parameters import Parameters
 
 THIN = 0.8  # width of lines, points
 THICK = 2.4  # where they are stable
-EDGE = 0.02  # share of a ring's width beside its clamped edge, which is no nodal line
 SPECIAL = {
     "fold": ("s", "fold"),
     "period_doubling": ("D", "period doubling"),
@@ -81,7 +69,7 @@ def draw_branch(ax: Axes, branch: Any, y: str, units: Any, **look: Any) -> None:
         rate_axis(ax)
 
 
-def stable_between(growth: NDArray[np.float64]) -> NDArray[np.bool_]:
+def stable_between(growth: Array) -> Mask:
     """Whether a branch is stable between each point and the next one, shape (n - 1,), from growth
     rates at n points, which are 0 where stability changes."""
     stable = np.maximum(growth[:-1], growth[1:]) <= 0
@@ -98,7 +86,7 @@ def thicken(ax: Axes, x: Any, y: Any, between: Any, why: str, **look: Any) -> No
     if np.any(between):
         cut = np.flatnonzero(~between) + 1
         points = [np.insert(np.asarray(each, dtype=float), cut, np.nan) for each in (x, y)]
-        ax.plot(*points, lw=THICK, solid_capstyle="round", label=once(ax, why), **look)
+        ax.plot(*points, lw=THICK, solid_capstyle="round", label=why, **look)
 
 
 def draw_multipliers(ax: Axes, cycle: Any, **look: Any) -> None:
@@ -126,7 +114,7 @@ def draw_eigenvalues(ax: Axes, sliding: Any, **look: Any) -> None:
     ax.set(xlabel="Growth rate (1/s)", ylabel="Frequency (Hz)")
 
 
-def _ring(ax: Axes, places: NDArray[np.complex128]) -> None:
+def _ring(ax: Axes, places: Any) -> None:
     """Rings around what grows, in the complex plane."""
     look = {"marker": "o", "markersize": 9, "color": RED, "markerfacecolor": "none"}
     mark_points(ax, places.real, places.imag, "grows", **look)
@@ -158,12 +146,12 @@ def draw_critical(ax: Axes, found: Any, **look: Any) -> None:
     lines(ax, rate, found.name, missing="", **own)
     colour = ax.lines[-1].get_color()
     if sliding.notnull().any():
-        name = once(ax, "steady sliding, where there is no cycle")
+        name = "steady sliding, where there is no cycle"
         ax.plot(x, sliding, "--", label=name, color=colour)
     mark_missing(ax, x[rate.isnull() & sliding.isnull()], "nothing found", colour)
     for low, high in found.unstable:
-        name = once(ax, "shaded: unstable")
-        ax.axvspan(placed(x, low), placed(x, high), alpha=0.2, lw=0, color=colour, label=name)
+        ends = placed(x, low), placed(x, high)
+        ax.axvspan(*ends, alpha=0.2, lw=0, color=colour, label="shaded: unstable")
     rate_axis(ax)
     ax.set_ylabel("Growth rate (1/s)")
 
@@ -179,7 +167,7 @@ def draw_curves(ax: Axes, curves: Any, **look: Any) -> None:
         name = "_nolegend_"
         if curve.kind == "fold":
             dashes = "--"
-            name = once(ax, "dashed: the cycle ends in a fold")
+            name = "dashed: the cycle ends in a fold"
         ax.plot(x, y, color=colour, lw=THIN, ls=dashes, label=name)
         stable = curve.adjoins_stable_cycle[:-1] & curve.adjoins_stable_cycle[1:]
         thicken(ax, x, y, stable, "thick: a stable cycle adjoins", color=colour, ls=dashes)
@@ -192,23 +180,3 @@ def _name_curve(ax: Axes, x: DataArray, y: DataArray, name: str) -> None:
     if name not in [text.get_text() for text in ax.texts]:
         middle = (x[x.size // 2], y[x.size // 2])
         ax.annotate(name, middle, (4, 2), textcoords="offset points", fontsize="small")
-
-
-def draw_modes(axes: Iterable[Any], case: Parameters) -> None:
-    """Draw the shapes of modes from above on polar axes, by ascending frequency, with nodal lines and
-    the slider."""
-    modes = mode_arrays(case)
-    inner, outer = radial_range(case)
-    r = np.linspace(inner + EDGE * (outer - inner), outer, 25)
-    theta = np.linspace(0, 2 * np.pi, 181)
-    shapes = mode_shapes(case, r)
-    for ax, i in zip(axes, np.argsort(modes.omega), strict=False):
-        w = np.outer(shapes[i], np.cos(modes.diameters[i] * theta))
-        end = 1.6 * float(np.abs(w).max())  # so that lines stay visible
-        colours: Options = {"cmap": cm.vik, "vmin": -end, "vmax": end}
-        ax.pcolormesh(theta, r, w, shading="gouraud", rasterized=True, **colours)
-        ax.contour(theta, r, w, [0], colors=BLACK, linewidths=1)
-        ax.plot(0, case.r_0, "o", ms=3.5, mfc=ORANGE, mec=BLACK, mew=0.5)
-        ax.set(ylim=(0, outer), xticks=[], yticks=[])
-        frequency = modes.omega[i] / (2 * np.pi)
-        ax.set_title(f"({modes.diameters[i]}, {modes.circles[i]})  {frequency:.0f} Hz")

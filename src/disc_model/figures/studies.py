@@ -1,5 +1,6 @@
 """Figures of studies over parameters: each a few lines over `draw`."""
 
+from collections.abc import Sequence
 from typing import Annotated, Any, Literal
 
 import numpy as np
@@ -23,7 +24,6 @@ from disc_model.figures.draw import (
     class_map,
     colours_of,
     each_value,
-    growth_colours,
     is_rate,
     is_words,
     lines,
@@ -91,18 +91,39 @@ def row(count: int, height: float) -> tuple[Figure, list[Axes]]:
 @grid_figure()
 def heat_map(study: Dataset, variable: str, x: str, y: str, by: str = NORM) -> Figure:
     """Any variable in colour over two dimensions, with a panel for each value of a third."""
-    parts = each_value(study, by)
-    figure, axes = row(len(parts), 2.4)
-    scale = colours_of(study[variable])
-    for ax, (title, part) in zip(axes, parts, strict=True):
-        ax.set_title(title)
-        plane = part.transpose(y, x, ...)
-        mesh = draw_map(ax, plane, variable, **scale)
-        if is_rate(plane[variable]):
-            borders(ax, None, plane[variable])
-    if mesh is not None:
-        bar_of(figure, axes, mesh, study[variable])
+    figure, _ = draw_maps(study, [variable], x, y, by)
     return figure
+
+
+def draw_maps(
+    study: Dataset, variables: Sequence[str], x: str, y: str, by: str, curves: Dataset | None = None
+) -> tuple[Figure, Any]:
+    """A row of maps for each variable, with a panel for each value of a third dimension.
+
+    curves : neutral curves, borders of the cycle whose growth rate is the last variable
+
+    Returns the figure, and its axes, shape (variable, value).
+    """
+    parts = each_value(study, by)
+    layout = np.arange(len(variables) * len(parts)).reshape(-1, len(parts))
+    width = COLUMN if layout.size == 1 else PAGE
+    figure, axes = panels(layout.tolist(), width, 2.4, sharex=True, sharey=True)
+    rows = np.array([*axes.values()]).reshape(layout.shape)
+    for row, variable in zip(rows, variables, strict=True):
+        colours = colours_of(study[variable])
+        for ax, (title, part) in zip(row, parts, strict=True):
+            ax.set_title(title)
+            plane = part.transpose(y, x, ...)
+            mesh = draw_map(ax, plane, variable, **colours)
+            rate = plane[variables[-1]]
+            beside = curves
+            if curves is not None and by in curves.dims:
+                beside = curves.sel({by: part[by].item()})
+            if is_rate(rate):
+                borders(ax, beside, rate)
+        if mesh is not None:
+            bar_of(figure, row, mesh, study[variable])
+    return figure, rows
 
 
 def draw_map(ax: Axes, data: Dataset, variable: str, **colours: Any) -> Any:
@@ -256,26 +277,11 @@ def region_map(
 ) -> Figure:
     """Outcomes over two parameters, with cases of the paper, and the growth rate of the cycle below,
     for each value of a third one."""
-    parts = each_value(study, by)
-    layout = np.arange(2 * len(parts)).reshape(2, -1)
-    if len(parts) == 1:
-        layout = layout.T
-    figure, axes = panels(layout.tolist(), PAGE, 2.4, sharex=True, sharey=True)
-    outcomes, rates = np.split(np.array([*axes.values()]), 2)
-    scale = growth_colours(study["growth_rate"])
-    for outcome, growth, (title, part) in zip(outcomes, rates, parts, strict=True):
-        plane = part.transpose(y, x, ...)
-        beside = curves
-        if curves is not None and by in curves.dims:
-            beside = curves.sel({by: part[by].item()})
-        outcome.set_title(titled(title, study))
-        draw_map(outcome, plane, "outcome")
-        mesh = draw_map(growth, plane, "growth_rate", **scale)
-        for ax in (outcome, growth):
-            borders(ax, beside, plane["growth_rate"])
+    figure, rows = draw_maps(study, ["outcome", "growth_rate"], x, y, by, curves)
+    for ax in rows[0]:
+        ax.set_title(titled(ax.get_title(loc="left"), study))
     for name, mark in marks.items():
-        draw_mark(outcomes[0], name, mark, study[x], study[y])
-    bar_of(figure, rates, mesh, study["growth_rate"])
+        draw_mark(rows[0, 0], name, mark, study[x], study[y])
     return figure
 
 
