@@ -16,7 +16,7 @@ import numpy as np
 import pandas as pd
 from scipy.sparse.linalg import eigsh
 
-from disc_model.disc.section import _matrices, _under_slider, mesh_of
+from disc_model.disc.section import _matrices, _measured, mesh_of
 from disc_model.parameters import Parameters
 
 TABLE = Path(__file__).with_suffix(".csv")
@@ -52,7 +52,7 @@ def stress_per_speed(size: float) -> tuple[float, np.ndarray]:
     mesh = mesh_of(DRAWING, size)
     element = skfem.ElementComposite(*[skfem.ElementQuad2()] * 3)
     basis = skfem.Basis(mesh, element, intorder=6)
-    along_path = _under_slider(basis, SLIDER)[0][1]
+    along_path = _measured(basis, SLIDER)[0][1]
     held = basis.get_dofs(lambda x: x[0] < CLAMPED + 1e-9).all()
     stiffness, mass = _matrices(basis, DIAMETERS, IRON)
     free = basis.complement_dofs(held)

@@ -145,9 +145,7 @@ def explorer(output: str) -> None:
         data = load_tree(study["data"]).to_dataset()
         stored = load_tree(study["motions"]).to_dataset() if study["motions"] else None
         studies.append(study_contents(study["name"], data, stored, study["stated"]))
-    text = page(plan["title"], studies)
-    Path(output).write_text(text, encoding="utf-8")
-    logging.info("%d studies, %.1f MB", len(studies), len(text.encode()) / 1e6)
+    Path(output).write_text(page(plan["title"], studies), encoding="utf-8")
 
 
 JOBS = {job.__name__: job for job in (case, part, grid, figure, provenance, motions, explorer)}

@@ -70,7 +70,7 @@ def test_flights_say_how_they_end() -> None:
         size=map_.size
     )
     assert outcome(map_, x) == transitions.STOPPED  # it loses contact
-    assert outcome(map_, x, may_separate=True) == transitions.RETURNED
+    assert outcome(ReturnMap(P, patient=True), x) == transitions.RETURNED
     assert outcome(map_, -5 * map_.static) == transitions.OFF_SECTION  # P would be negative
     assert outcome(map_, np.full(map_.size, math.nan)) != transitions.RETURNED
     start = simulate(P, 1e-6).final_state

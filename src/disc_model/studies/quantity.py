@@ -176,7 +176,7 @@ class Quantity:
     Attributes
     ----------
     name, function : of a case, with `options` as keywords; it returns codes for words, as files have them
-    points_per_job : most points of a job, some 20 s of work with nine modes
+    points_per_job : most points of a job, some 20 to 40 s of work with nine modes
     own : numbers of the case that it varies by itself, or the options that name them
     motion : what the explorer stores
     """

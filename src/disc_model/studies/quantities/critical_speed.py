@@ -52,7 +52,7 @@ def _is_multiple(options: Any) -> bool:
 
 
 @quantity(
-    points_per_job=5,
+    points_per_job=10,
     own=("Omega",),
     rules=(
         *BETWEEN,

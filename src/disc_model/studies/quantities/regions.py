@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from disc_model.stability.follower import NearCycle, OutcomeResult
 
 
-@quantity(points_per_job=250, motion=Motion(25, COME_TO, come_to))
+@quantity(points_per_job=500, motion=Motion(25, COME_TO, come_to))
 def regions(
     case: Parameters,
     horizon: Seconds,
