@@ -1,27 +1,14 @@
-"""What is shown to a reader: summaries of objects, their pictures, and the progress of what takes
-long."""
+"""What is shown to a reader: numbers in words, pictures, and the progress of what takes long."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from importlib import import_module
 from types import ModuleType
 from typing import Any
 
 WRITTEN_OUT = 1e6  # numbers below it have no power of ten
-
-
-class Summarised:
-    """An object that has a summary, which the command line shows."""
-
-    def _summary(self) -> Iterable[tuple[str, object]]:
-        raise NotImplementedError
-
-    def summary(self) -> list[tuple[str, str]]:
-        """Names and values in words; those without a value are left out."""
-        return [(name, str(value)) for name, value in self._summary() if value not in ("", None)]
 
 
 def number_text(value: float, unit: str = "", digits: int = 6) -> str:
@@ -63,39 +50,10 @@ def drawings() -> ModuleType:
     return results
 
 
-# ---- Progress
-
-
-class Bar:
-    """A bar that counts what is done; one of rich, if it is shown."""
-
-    def __init__(self, shown: Any = None) -> None:
-        self._shown = shown
-
-    def advance(self) -> None:
-        """Count one more that is done."""
-        self._update(advance=1)
-
-    def describe(self, text: str) -> None:
-        """Say beside the bar what is done now."""
-        self._update(description=text)
-
-    def _update(self, **changes: Any) -> None:
-        if self._shown is not None:
-            self._shown.update(0, **changes)
-
-
-@contextmanager
-def progress_bar(title: str, total: int | None, shown: bool) -> Iterator[Bar]:
-    """A bar on standard error while it is needed, of a `total` if that is known; nothing unless it is
-    shown."""
-    if not shown:
-        yield Bar()
-        return
+def progress_bar(shown: bool) -> Any:
+    """A display of progress on standard error, one of rich; it does nothing unless it is shown."""
     from rich.console import Console
     from rich.progress import MofNCompleteColumn, Progress, TimeElapsedColumn
 
     columns = [*Progress.get_default_columns(), MofNCompleteColumn(), TimeElapsedColumn()]
-    with Progress(*columns, console=Console(stderr=True)) as progress:
-        progress.add_task(title, total=total)
-        yield Bar(progress)
+    return Progress(*columns, console=Console(stderr=True), disable=not shown)

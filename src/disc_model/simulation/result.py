@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -18,7 +18,7 @@ from disc_model.arrays import Array, EqualByValue
 from disc_model.data.files import regular_file, unreadable
 from disc_model.data.variables import EVENT_KINDS, PHASES, SCALARS, attributes, values_text
 from disc_model.disc.plate import mode_arrays
-from disc_model.display import Summarised, counted, drawings, number_text
+from disc_model.display import counted, drawings, number_text
 from disc_model.engine import record
 from disc_model.engine.record import EVENT_ROW
 from disc_model.errors import Status, require
@@ -59,7 +59,7 @@ WRITERS = {".gif": "pillow", ".mp4": "ffmpeg"}  # of films by the suffixes of fi
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Result(Summarised, EqualByValue):
+class Result(EqualByValue):
     """A finished simulation, or the part of it that could be computed; see `status`.
 
     Attributes
@@ -294,14 +294,21 @@ class Result(Summarised, EqualByValue):
         ramped = "".join(f", {ramp.parameter} to {ramp.to:g}" for ramp in self.ramps)
         return f"Result(N={p.N:g} N, Omega={p.Omega:g} rad/s{ramped}: {ended}, {lost}, {events} events, {windows})"
 
-    def _summary(self) -> Iterator[tuple[str, object]]:
-        yield "case", values_text(dict(self.parameters))
-        yield "status", self.message or self.status.value
-        yield "advice", self.status.advice * (not self.status.complete)
-        yield "first separation", number_text(self.first_separation, "s", 9) or "none"
+    def summary(self) -> list[tuple[str, str]]:
+        """Names and values in words, as the command line shows them."""
+        advice = ""
+        if not self.status.complete:
+            advice = self.status.advice
+        lines = {
+            "case": values_text(dict(self.parameters)),
+            "status": self.message or self.status.value,
+            "advice": advice,
+            "first separation": number_text(self.first_separation, "s", 9) or "none",
+        }
         for name, value in self.statistics.items():
             words = name.removeprefix("n_").replace("_", " ")
-            yield words, number_text(value, SCALARS[name].units.strip("1"), 9)
+            lines[words] = number_text(value, SCALARS[name].units.strip("1"), 9)
+        return [(name, text) for name, text in lines.items() if text]
 
     def raise_for_status(self) -> Result:
         """Return self if the run is complete; otherwise raise its `SimulationError`."""

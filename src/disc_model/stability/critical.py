@@ -265,12 +265,13 @@ def critical(
         case.replace(**{name: value})  # must be a case, which is found before any work is done
     cycles: dict[float, FloquetResult] = {}
     shortest = SHORTEST * (high - low)
-    with progress_bar("critical", None, progress) as bar:
+    with progress_bar(progress) as bar:
+        task = bar.add_task("critical", total=None)
 
         def look(value: float) -> None:
             if value not in cycles:
                 cycles[value] = find_cycle(case.replace(**{name: value}), tol)
-                bar.advance()
+                bar.advance(task)
 
         for value in values:
             look(value)

@@ -149,8 +149,7 @@ class NearCycle:
 
         The growth rate's excess over the leading multiplier's is measured at larger and larger
         distances, as the motion might settle on a torus at any of them. It rises with the square of
-        the distance, so that half of it has come together on the way. Its phase, which drifts with
-        the amplitude long before the growth rate does and matters only near borders, is ignored.
+        the distance, so that half of it has come together on the way.
         """
         rate = self.cycle.growth_rate
         period = self.cycle.period
@@ -173,14 +172,7 @@ class NearCycle:
                 continue  # parts of other multipliers have not decayed yet
             if np.linalg.norm(distance) > farthest:
                 break
-            orbit = self.advance(self.x + distance, max(1, round(tested / period)))
-            if not orbit.returned:
-                break
-            later = orbit.end - self.x
-            if self._share_outside(later) > LARGEST_OUTSIDE:
-                break
-            grown = math.log(abs(self.leading @ later) / abs(self.leading @ distance))
-            excess = grown / orbit.period / rate - 1
+            excess = self._excess_rate(distance)
             if abs(excess) > LARGEST_EXCESS:
                 break
             gained = excess * tested / (factor**2 - 1)
@@ -192,6 +184,22 @@ class NearCycle:
         return self.map.evaluate(
             x, releases=periods * self.cycle.releases, tangent=False, coarse=coarse
         )
+
+    def _excess_rate(self, distance: Array) -> float:
+        """Relative excess of the growth rate over the leading multiplier's; infinite unless the
+        motion departs along its eigenspace at both times of the test: after the later one alone
+        another motion can come by it. Its phase, which drifts with the amplitude long before the
+        growth rate does and matters only near borders, is ignored."""
+        later = distance
+        durations = []
+        for later, _, duration in self._motion(distance, TEST_TIMES[-1]):
+            durations.append(duration)
+            if not self._share_outside(later) <= LARGEST_OUTSIDE:
+                return math.inf
+        if len(durations) < 2:
+            return math.inf
+        grown = math.log(abs(self.leading @ later) / abs(self.leading @ distance))
+        return float(grown / sum(durations) / self.cycle.growth_rate - 1)
 
     def _share_outside(self, distance: Array) -> float:
         """Share of a distance from the cycle that lies outside the leading multiplier's
