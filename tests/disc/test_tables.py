@@ -93,9 +93,9 @@ def test_faults_of_columns_are_named() -> None:
     assert dm.Disc(**given, circles=[0, 1]).damping_ratio == (0, 0)
     with refusal("omega=1: must be as many as diameters, 2"):
         dm.Disc(diameters=[2, 3], omega=[100], amplitude=[2, 1])
-    with refusal("diameters=9000: must be 1 to 1000 modes"):
+    with refusal("diameters=1001: must be 1 to 1000 modes"):
         dm.Disc(
-            diameters=[2] * 9000, omega=range(100, 9100), amplitude=[1] * 9000
+            diameters=[2] * 1001, omega=range(100, 1101), amplitude=[1] * 1001
         )  # circles are not counted before
 
 

@@ -327,7 +327,8 @@ def test_a_stored_branch_is_a_branch_again(kind: str, folded: dm.Branch, tmp_pat
     shown = ["kind", "growth_rate", "period", "multiplier", "point", "range"]
     assert again.special_points[shown].equals(kept.special_points[shown])
     guess = None if kind == "slipping" else again.state(-1)
-    onward = dm.continue_cycle(again.case_at(-1), "Omega", (1, 16), guess=guess, kind=kind)
+    bounds = (float(again.values[-1]) - 0.5, float(again.values[-1]) + 0.5)
+    onward = dm.continue_cycle(again.case_at(-1), "Omega", bounds, guess=guess, kind=kind)
     place = np.argmin(np.abs(onward.values - again.values[-1]))
     assert onward.period[place] == pytest.approx(again.period[-1], rel=1e-9)
     with refusal(r"must be a dataset of Branch\.to_dataset"):
