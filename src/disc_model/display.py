@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from importlib import import_module
 from types import ModuleType
 from typing import Any
@@ -50,10 +51,21 @@ def drawings() -> ModuleType:
     return results
 
 
-def progress_bar(shown: bool) -> Any:
-    """A display of progress on standard error, one of rich; it does nothing unless it is shown."""
+@contextmanager
+def progress_bar(title: str, total: int | None, shown: bool) -> Iterator[Callable[[str], None]]:
+    """A bar on standard error, of a `total` if that is known, while it is needed; nothing unless it is
+    shown. Yields what counts one more that is done, with a text that says what."""
+    if not shown:
+        yield lambda _: None
+        return
     from rich.console import Console
     from rich.progress import MofNCompleteColumn, Progress, TimeElapsedColumn
 
-    columns = [*Progress.get_default_columns(), MofNCompleteColumn(), TimeElapsedColumn()]
-    return Progress(*columns, console=Console(stderr=True), disable=not shown)
+    with Progress(
+        *Progress.get_default_columns(),
+        MofNCompleteColumn(),
+        TimeElapsedColumn(),
+        console=Console(stderr=True),
+    ) as progress:
+        task = progress.add_task(title, total=total)
+        yield lambda text: progress.update(task, advance=1, description=text)

@@ -307,7 +307,8 @@ class Result(EqualByValue):
         }
         for name, value in self.statistics.items():
             words = name.removeprefix("n_").replace("_", " ")
-            lines[words] = number_text(value, SCALARS[name].units.strip("1"), 9)
+            unit = SCALARS[name].units
+            lines[words] = number_text(value, "" if unit == "1" else unit, 9)
         return [(name, text) for name, text in lines.items() if text]
 
     def raise_for_status(self) -> Result:

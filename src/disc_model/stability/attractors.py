@@ -434,8 +434,10 @@ def random_perturbation(p: Parameters, state: State, energy: float, key: Sequenc
     modes = mode_arrays(p)
     draw = np.random.default_rng(list(key)).standard_normal((4, len(modes.omega)))
     draw[2:, modes.diameters == 0] = 0.0
-    ones = np.ones(len(modes.omega))
-    a, alpha, b, beta = draw / [modes.omega, ones, modes.omega, ones]
+    a = draw[0] / modes.omega
+    alpha = draw[1]
+    b = draw[2] / modes.omega
+    beta = draw[3]
     u = float(modes.psi @ a)
     velocity = float(modes.psi @ alpha)
     surface = float(tangential_amplitudes(p) @ beta)

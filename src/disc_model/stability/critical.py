@@ -265,13 +265,12 @@ def critical(
         case.replace(**{name: value})  # must be a case, which is found before any work is done
     cycles: dict[float, FloquetResult] = {}
     shortest = SHORTEST * (high - low)
-    with progress_bar(progress) as bar:
-        task = bar.add_task("critical", total=None)
+    with progress_bar("critical", None, progress) as done:
 
         def look(value: float) -> None:
             if value not in cycles:
                 cycles[value] = find_cycle(case.replace(**{name: value}), tol)
-                bar.advance(task)
+                done("critical")
 
         for value in values:
             look(value)

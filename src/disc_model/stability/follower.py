@@ -526,9 +526,9 @@ class _Search:
         leg = FIRST_LEG
         end = self.horizon
         while True:
-            if cycle is not None and cycle.cycle.stable:  # on which it is for good
-                return replace(result, near=cycle, outcome=cycle.kind, time=cycle.time)
             if cycle is not None:
+                if cycle.cycle.stable:  # on which it is for good
+                    return replace(result, near=cycle, outcome=cycle.kind, time=cycle.time)
                 result.near = result.near or cycle
                 departs = True
                 if extrapolate and self._extrapolate(result, cycle):

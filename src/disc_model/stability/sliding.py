@@ -231,8 +231,7 @@ def steady_sliding(case: Parameters) -> SteadySliding:
     steady sliding with P = 384.977 N, not stable 0.0339 1/s
     """
     status, slips = _equilibria(case)
-    jacobian = slips[0].jacobian if slips else np.zeros((0, 0))
-    return _described(case, status, slips, np.linalg.eigvals(jacobian))
+    return _described(case, status, slips, np.linalg.eigvals(_jacobian_of(slips)))
 
 
 def _equilibria(case: Parameters) -> tuple[SlidingStatus, list["_Slip"]]:
@@ -250,14 +249,29 @@ def _equilibria(case: Parameters) -> tuple[SlidingStatus, list["_Slip"]]:
         if not case.N > 0:
             return SlidingStatus.NO_LOAD, []
         return (SlidingStatus.NO_CONTACT if every else SlidingStatus.NOT_FOUND), []
-    if carried[0].denominator <= 1e-6:
-        return SlidingStatus.PARADOX, []
     # without a spring, friction at this speed and the slope must both be zero, which is exact then
-    if case.k_p == 0 and any(each.H != 0 for each in linear):
-        return SlidingStatus.NO_SPRING, []
+    balanced = case.k_p != 0 or all(each.H == 0 for each in linear)
+    status = _status_of(carried, balanced=balanced, stretches=bool(disc.model.has_stretching))
+    return status, carried if status.exists else []
+
+
+def _status_of(carried: Sequence["_Slip"], *, balanced: bool, stretches: bool) -> SlidingStatus:
+    """The status of equilibria in contact, of which the first is nearest to the drive's rate.
+
+    balanced : whether friction is carried by a spring, or is zero; stretches : whether the plate does
+    """
+    if carried[0].denominator <= 1e-6:
+        return SlidingStatus.PARADOX
+    if not balanced:
+        return SlidingStatus.NO_SPRING
     if len(carried) > 1:
-        return SlidingStatus.SEVERAL, carried
-    return (SlidingStatus.FURTHER if disc.model.has_stretching else SlidingStatus.OK), carried
+        return SlidingStatus.SEVERAL
+    return SlidingStatus.FURTHER if stretches else SlidingStatus.OK
+
+
+def _jacobian_of(slips: Sequence["_Slip"]) -> Array:
+    """The Jacobian at the first of some equilibria; without rows if there is none."""
+    return slips[0].jacobian if slips else np.zeros((0, 0))
 
 
 def _described(
@@ -591,7 +605,7 @@ def _sliding_and_modes(p: Parameters) -> tuple[SteadySliding, SlidingModes]:
     """Steady sliding and its modes, of which there are none without it. Values and shapes come from
     one solution of the eigenvalue problem, which takes nearly all of the time of 100 modes."""
     status, slips = _equilibria(p)
-    values, vectors = np.linalg.eig(slips[0].jacobian if slips else np.zeros((0, 0)))
+    values, vectors = np.linalg.eig(_jacobian_of(slips))
     return _described(p, status, slips, values), _modes_of(p, values, vectors)
 
 

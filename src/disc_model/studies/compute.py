@@ -13,6 +13,7 @@ import xarray as xr
 from xarray import Dataset
 
 from disc_model.data.variables import PERTURBATIONS, Variable, attributes
+from disc_model.display import progress_bar
 from disc_model.parameters import Parameters
 from disc_model.studies.grid import VARIED, WORDS, Dims
 from disc_model.studies.quantity import NUMERICAL, Row, failed
@@ -69,13 +70,12 @@ def compute(
     progress: bool = False,
 ) -> list[Dataset]:
     """The results at points; `map` may be that of an executor, and `progress` shows a bar on standard error."""
-    results = map(call, points)
-    if progress:
-        from rich.console import Console
-        from rich.progress import track
-
-        results = track(results, title, total=len(points), console=Console(stderr=True))
-    return [*results]
+    results = []
+    with progress_bar(title, len(points), progress) as done:
+        for result in map(call, points):
+            results.append(result)
+            done(title)
+    return results
 
 
 # ---- Stacking

@@ -105,7 +105,12 @@ def merge(layout: Layout, results: Sequence[Dataset], attrs: Mapping[str, str]) 
         rows[place] = result
     study = stack(rows, dims, OF_QUANTITIES[name]["columns"])
     first = {dim: frame.columns[0] for dim, frame in dims.items()}
-    ordered = sorted(study.dims, key=lambda dim: [*VARIED, dim].index(first.get(str(dim), dim)))
+
+    def rank(dim: Any) -> int:
+        name = first.get(dim, dim)
+        return VARIED.index(name) if name in VARIED else len(VARIED)
+
+    ordered = sorted(study.dims, key=rank)
     every = {"Conventions": CONVENTIONS, **attrs, "quantity": name}
     for key in ("options", "base", "discs"):
         every[key] = json.dumps(layout[key], sort_keys=True)

@@ -380,12 +380,11 @@ def continue_cycle(  # noqa: PLR0913
     rule = f"must lie within the bounds, {bounds[0]:g} to {bounds[1]:g}"
     require((bounds[0] <= value <= bounds[1], name, value, rule))
     problem, start = first_cycle(case, name, bounds, tol, guess, releases, kind)
-    with progress_bar(progress) as bar:
-        task = bar.add_task("continue_cycle", total=None)
+    with progress_bar("continue_cycle", None, progress) as done:
 
         def keep(point: CurvePoint) -> dict[str, Any]:
             here = value_with_unit(name, problem.values(point.z)[0])
-            bar.update(task, advance=1, description=f"continue_cycle at {here}")
+            done(f"continue_cycle at {here}")
             return row_of(problem, point)
 
         course = Tracer(problem, steps, keep).follow(start, direction)

@@ -8,7 +8,7 @@ ones unchanged.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from operator import attrgetter
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -130,16 +130,19 @@ def basins(
         values |= _critical_energy(*min(apart), lambda *start: follow(*start).separates)
     own = {"energy": energies, "start": range(n_starts), "attractor_class": CLASSES}
     own["attractor"] = range(1, MOST_ATTRACTORS + 1)
-    remarks = []
+    if all(reached.outcome is None for reached in every):
+        values["status"] = every[0].status
+    return found("basins", values, *_remarks(every), **own)
+
+
+def _remarks(every: Sequence[OutcomeResult]) -> Iterator[str]:
+    """Yield how many starts failed or stayed undecided, if any."""
     failed = [reached for reached in every if reached.outcome is None]
     if failed:
-        remarks.append(f"{len(failed)} of {len(every)} starts failed, such as {failed[0].message}")
-    if len(failed) == len(every):
-        values["status"] = failed[0].status
+        yield f"{len(failed)} of {len(every)} starts failed, such as {failed[0].message}"
     undecided = sum(reached.word == "undecided" for reached in every)
     if undecided:
-        remarks.append(f"{undecided} of {len(every)} starts undecided within the horizon: raise it")
-    return found("basins", values, *remarks, **own)
+        yield f"{undecided} of {len(every)} starts undecided within the horizon: raise it"
 
 
 def _each(results: Objects, value: Callable[[OutcomeResult], Any]) -> Any:

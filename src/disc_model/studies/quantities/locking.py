@@ -84,14 +84,15 @@ def locking(
             break
         record *= 2
     message = ""
+    if lock:
+        values |= _columns_of(lock)
     if lock and multipliers:
         proof = _proof(run, lock)
         if proof is None:
             message = f"no stable cycle of {lock.releases} releases was found at the motion"
-            proof = {**_columns_of(lock), "motion": "undecided"}
-        values |= proof
-    elif lock:
-        values |= _columns_of(lock)
+            values["motion"] = "undecided"
+        else:
+            values |= proof
     if probes:
         phases = phase_map(case, run, probes, tol)
         values |= {
